@@ -1,0 +1,289 @@
+//! What can be said about a field without evaluating it: its faults, its contract, its extent.
+//!
+//! Contracts are derived from the leaves upwards. Extents come from support functions: for each of the six axis
+//! directions, the farthest a point of the shape can lie. A direction passes through affine maps exactly, so a rotated
+//! torus gets its true box and not the box of a rotated box.
+
+use crate::contract::{Aabb, Contract, Extent};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::field::{Field, Node};
+use crate::shape::{Arity, Hull, Kind};
+use glam::{DAffine3, DMat3, DVec3};
+
+/// The deepest nesting a field may have; deeper ones would exhaust the stack of a small thread.
+pub const MAX_DEPTH: u32 = 512;
+
+/// What is known about a field.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    /// How the field relates to the true distance.
+    pub contract: Contract,
+    /// The box that holds the shape.
+    pub extent: Extent,
+    /// How many nodes the tree has.
+    pub nodes: usize,
+    /// How many of them are primitives.
+    pub primitives: usize,
+}
+
+/// Looks through a field. The analysis is there if no diagnostic is an error.
+pub fn analyse(field: &Field) -> (Option<Analysis>, Vec<Diagnostic>) {
+    let mut walk = Walk::default();
+    if field.depth() > MAX_DEPTH {
+        let message = format!(
+            "shapes are nested {} deep; at most {MAX_DEPTH} are possible",
+            field.depth()
+        );
+        walk.report(
+            field.node(),
+            Severity::Error,
+            None,
+            message,
+            Some("join unions into one".into()),
+        );
+        return (None, walk.diagnostics);
+    }
+    let contract = walk.visit(field);
+    let analysis = contract.map(|contract| Analysis {
+        contract,
+        extent: extent(field),
+        nodes: walk.nodes,
+        primitives: walk.primitives,
+    });
+    (analysis, walk.diagnostics)
+}
+
+#[derive(Default)]
+struct Walk {
+    diagnostics: Vec<Diagnostic>,
+    nodes: usize,
+    primitives: usize,
+}
+
+impl Walk {
+    fn report(
+        &mut self,
+        node: &Node,
+        severity: Severity,
+        param: Option<usize>,
+        message: String,
+        hint: Option<String>,
+    ) {
+        self.diagnostics.push(Diagnostic {
+            severity,
+            message,
+            hint,
+            origin: node.origin,
+            param,
+        });
+    }
+
+    fn error(&mut self, node: &Node, param: Option<usize>, message: String) -> Option<Contract> {
+        self.report(node, Severity::Error, param, message, None);
+        None
+    }
+
+    /// The contract of a field, or `None` after reporting an error in it.
+    fn visit(&mut self, field: &Field) -> Option<Contract> {
+        let node = field.node();
+        let name = node.shape.about.name;
+        self.nodes += 1;
+        // All children are looked at, whatever is wrong here.
+        let children: Vec<Option<Contract>> = node
+            .children
+            .iter()
+            .map(|child| self.visit(child))
+            .collect();
+        let sound = self.arguments_are_sound(node);
+        match (node.shape.arity(), node.children.len()) {
+            (Arity::None, 0) | (Arity::One, 1) | (Arity::Many, 1..) => {}
+            (Arity::None, _) => return self.error(node, None, format!("{name} takes no shapes")),
+            (Arity::One, _) => {
+                return self.error(node, None, format!("{name} takes exactly one shape"));
+            }
+            (Arity::Many, _) => {
+                let hint = Some("give at least one shape, or leave it out".into());
+                self.report(
+                    node,
+                    Severity::Error,
+                    None,
+                    format!("{name} has no shapes"),
+                    hint,
+                );
+                return None;
+            }
+        }
+        if !sound {
+            return None;
+        }
+        let args = node.numbers();
+        match &node.shape.kind {
+            Kind::Primitive(table) => {
+                self.primitives += 1;
+                if let Err(fault) = (table.check)(&args) {
+                    return self.error(node, None, fault);
+                }
+                Some((table.contract)(&args))
+            }
+            Kind::Combine(table) => {
+                let mut children = children.into_iter();
+                let mut contract = children.next().flatten();
+                for child in children {
+                    contract = match (contract, child) {
+                        (Some(a), Some(b)) => match (table.contract)(&args, a, b) {
+                            Ok(both) => Some(both),
+                            Err(fault) => return self.error(node, None, fault),
+                        },
+                        _ => None,
+                    };
+                }
+                contract
+            }
+            Kind::Place(table) => {
+                let child = children[0]?;
+                Some(if (table.is_similarity)(&args) {
+                    child
+                } else {
+                    child.at_most_bound()
+                })
+            }
+            Kind::Modify(table) => {
+                let child = children[0]?;
+                if let Some(doubt) = (table.warning)(&args, child) {
+                    self.report(node, Severity::Warning, None, doubt, None);
+                }
+                match (table.contract)(&args, child) {
+                    Ok(contract) => Some(contract),
+                    Err(fault) => self.error(node, None, fault),
+                }
+            }
+            Kind::Paint => children[0],
+        }
+    }
+
+    fn arguments_are_sound(&mut self, node: &Node) -> bool {
+        let about = &node.shape.about;
+        let mut start = 0;
+        let mut sound = true;
+        for (index, param) in about.params.iter().enumerate() {
+            let width = param.kind.width();
+            let end = if param.kind.is_list() {
+                node.args.len()
+            } else {
+                start + width
+            };
+            let is_there =
+                end <= node.args.len() && end > start && (end - start).is_multiple_of(width);
+            let fault = if is_there {
+                let numbers: Vec<f64> = node.args[start..end]
+                    .iter()
+                    .map(|value| value.number())
+                    .collect();
+                param
+                    .kind
+                    .fault(&numbers)
+                    .map(|fault| format!("`{}` of {} {fault}", param.name, about.name))
+            } else {
+                Some(format!("{} needs `{}`", about.name, param.name))
+            };
+            if let Some(fault) = fault {
+                self.error(node, Some(index), fault);
+                sound = false;
+            }
+            start = end;
+        }
+        if start < node.args.len() {
+            self.error(node, None, format!("{} has too many arguments", about.name));
+            sound = false;
+        }
+        sound
+    }
+}
+
+/// The box that holds the shape of a sound field.
+pub fn extent(field: &Field) -> Extent {
+    let (mut min, mut max) = (DVec3::ZERO, DVec3::ZERO);
+    for axis in 0..3 {
+        let mut direction = DVec3::ZERO;
+        direction[axis] = 1.0;
+        max[axis] = support(field, direction, 0.0);
+        min[axis] = -support(field, -direction, 0.0);
+    }
+    if (0..3).any(|axis| max[axis] == f64::NEG_INFINITY || min[axis] > max[axis]) {
+        Extent::Empty
+    } else if min.is_finite() && max.is_finite() {
+        Extent::Finite(Aabb { min, max })
+    } else {
+        Extent::Unbounded
+    }
+}
+
+/// An upper bound of `direction . p` over all points where the field is at most `level`.
+fn support(field: &Field, direction: DVec3, level: f64) -> f64 {
+    let node = field.node();
+    let args = node.numbers();
+    match &node.shape.kind {
+        Kind::Primitive(table) => {
+            let direction = match node.axis() {
+                Some(axis) => axis_map(axis).transpose() * direction,
+                None => direction,
+            };
+            (table.support)(&args, direction, level)
+        }
+        Kind::Combine(table) => {
+            // Folded from the left, hence the levels unfold from the right.
+            let mut level = level;
+            let mut bound: Option<f64> = None;
+            for (index, child) in node.children.iter().enumerate().rev() {
+                let own = if index == 0 {
+                    level
+                } else {
+                    let (rest, own) = (table.levels)(&args, level);
+                    level = rest;
+                    own
+                };
+                if index > 0 && table.hull == Hull::First {
+                    continue;
+                }
+                let here = support(child, direction, own);
+                bound = Some(match (bound, table.hull) {
+                    (None, _) => here,
+                    (Some(bound), Hull::Both) => bound.max(here),
+                    (Some(bound), Hull::Common | Hull::First) => bound.min(here),
+                });
+            }
+            bound.unwrap_or(f64::NEG_INFINITY)
+        }
+        Kind::Place(table) => {
+            let map = (table.map)(&args);
+            let within = map.matrix3.transpose() * direction;
+            support(&node.children[0], within, level / (table.factor)(&args))
+                + direction.dot(map.translation)
+        }
+        Kind::Modify(table) => match (table.level)(&args, level) {
+            Some(level) => support(&node.children[0], direction, level),
+            None => f64::INFINITY,
+        },
+        Kind::Paint => support(&node.children[0], direction, level),
+    }
+}
+
+/// The rotation that takes a shape along z to one along `axis`, a cyclic exchange of axes.
+pub(crate) fn axis_map(axis: usize) -> DMat3 {
+    match axis {
+        0 => DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X),
+        1 => DMat3::from_cols(DVec3::Z, DVec3::X, DVec3::Y),
+        _ => DMat3::IDENTITY,
+    }
+}
+
+/// The map from a placed node's child to the node's own space, as one factor of a chain.
+pub(crate) fn place_map(node: &Node) -> Option<(DAffine3, f64)> {
+    match &node.shape.kind {
+        Kind::Place(table) => {
+            let args = node.numbers();
+            Some(((table.map)(&args), (table.factor)(&args)))
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,365 @@
+//! Kernels: the generic formulas, instantiated for each number type and wrapped in loops over batches.
+//!
+//! A batch is at most [`BATCH`] points in structure-of-arrays form. A number of a type with `C` components (1 for plain
+//! values, 4 for values with gradients) takes `C` consecutive [`Block`]s. Kernels are called through pointers, once for
+//! each batch; inside, the formula and everything below it is inlined and compiled for one instruction set.
+
+use crate::expr::Expr;
+use crate::scalar::{Constants, Dual, Interval, Lanes, Scalar};
+use crate::shape::{Combine, Modify, Primitive};
+use crate::simd::{Level, dispatch};
+use crate::vector::{Vec3, vec3};
+use fearless_simd::Simd;
+
+/// The largest number of points evaluated at once: few enough that a program's registers stay in the first-level cache.
+pub const BATCH: usize = 256;
+
+/// Batches are filled up to a multiple of this, the widest vector.
+pub const WIDEST: usize = 16;
+
+/// One component of the numbers of a batch.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub struct Block(pub [f32; BATCH]);
+
+impl Default for Block {
+    fn default() -> Self {
+        Self([0.0; BATCH])
+    }
+}
+
+/// A lane type that is stored as a fixed number of blocks.
+trait Packed<I: Simd>: Scalar<Table = [f32]> {
+    const COMPONENTS: usize;
+
+    fn load(token: I, from: &[Block], lane: usize) -> Self;
+    fn store(self, to: &mut [Block], lane: usize);
+}
+
+impl<I: Simd> Packed<I> for Lanes<I> {
+    const COMPONENTS: usize = 1;
+
+    #[inline(always)]
+    fn load(token: I, from: &[Block], lane: usize) -> Self {
+        Lanes::load(token, &from[0].0[lane..lane + Self::COUNT])
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [Block], lane: usize) {
+        Lanes::store(self, &mut to[0].0[lane..lane + Self::COUNT]);
+    }
+}
+
+impl<I: Simd> Packed<I> for Dual<Lanes<I>> {
+    const COMPONENTS: usize = 4;
+
+    #[inline(always)]
+    fn load(token: I, from: &[Block], lane: usize) -> Self {
+        let [value, x, y, z] = [&from[0], &from[1], &from[2], &from[3]];
+        Dual {
+            value: Lanes::load(token, &value.0[lane..lane + Lanes::<I>::COUNT]),
+            gradient: [
+                Lanes::load(token, &x.0[lane..lane + Lanes::<I>::COUNT]),
+                Lanes::load(token, &y.0[lane..lane + Lanes::<I>::COUNT]),
+                Lanes::load(token, &z.0[lane..lane + Lanes::<I>::COUNT]),
+            ],
+        }
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [Block], lane: usize) {
+        self.value
+            .store(&mut to[0].0[lane..lane + Lanes::<I>::COUNT]);
+        for (component, block) in self.gradient.into_iter().zip(&mut to[1..4]) {
+            component.store(&mut block.0[lane..lane + Lanes::<I>::COUNT]);
+        }
+    }
+}
+
+#[inline(always)]
+fn load_point<I: Simd, K: Packed<I>>(token: I, from: &[Block], lane: usize) -> Vec3<K> {
+    let c = K::COMPONENTS;
+    vec3(
+        K::load(token, &from[..c], lane),
+        K::load(token, &from[c..2 * c], lane),
+        K::load(token, &from[2 * c..3 * c], lane),
+    )
+}
+
+/// What a kernel does with its result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fold {
+    /// Store it.
+    Set,
+    /// Store the smaller one of it and what is there.
+    Min,
+}
+
+/// A primitive's work on one batch.
+pub struct PrimitiveJob<'a> {
+    /// Three numbers a point.
+    pub points: &'a [Block],
+    /// Subtracted from each point before the formula.
+    pub at: &'a [f32],
+    /// The formula's constants.
+    pub constants: &'a [f32],
+    /// What happens to the result.
+    pub fold: Fold,
+    /// The result.
+    pub out: &'a mut [Block],
+    /// How many points, a multiple of [`WIDEST`].
+    pub count: usize,
+}
+
+#[inline(always)]
+fn primitive_loop<P: Primitive, I: Simd, K: Packed<I>>(token: I, job: &mut PrimitiveJob<'_>) {
+    let PrimitiveJob {
+        points,
+        at,
+        constants,
+        fold,
+        ref mut out,
+        count,
+    } = *job;
+    assert!(count <= BATCH && count.is_multiple_of(WIDEST));
+    let (points, out) = (&points[..3 * K::COMPONENTS], &mut out[..K::COMPONENTS]);
+    let like = K::load(token, points, 0);
+    let at = Constants::new(like, at, 3).get::<3>();
+    let constants = Constants::new(like, constants, constants.len());
+    let mut lane = 0;
+    match fold {
+        Fold::Set => {
+            while lane < count {
+                let p = load_point::<I, K>(token, points, lane) - at.into();
+                P::distance(p, &constants).store(out, lane);
+                lane += Lanes::<I>::COUNT;
+            }
+        }
+        Fold::Min => {
+            while lane < count {
+                let p = load_point::<I, K>(token, points, lane) - at.into();
+                let before = K::load(token, out, lane);
+                before.min(P::distance(p, &constants)).store(out, lane);
+                lane += Lanes::<I>::COUNT;
+            }
+        }
+    }
+}
+
+fn primitive_values<P: Primitive>(level: Level, job: &mut PrimitiveJob<'_>) {
+    dispatch!(level, token => primitive_loop::<P, _, Lanes<_>>(token, job));
+}
+
+fn primitive_gradients<P: Primitive>(level: Level, job: &mut PrimitiveJob<'_>) {
+    dispatch!(level, token => primitive_loop::<P, _, Dual<Lanes<_>>>(token, job));
+}
+
+/// A binary operator's work on one batch, in place.
+pub struct CombineJob<'a> {
+    /// The second operand.
+    pub b: &'a [Block],
+    /// The formula's constants.
+    pub constants: &'a [f32],
+    /// The first operand, and then the result.
+    pub out: &'a mut [Block],
+    /// How many points, a multiple of [`WIDEST`].
+    pub count: usize,
+}
+
+#[inline(always)]
+fn combine_loop<C: Combine, I: Simd, K: Packed<I>>(
+    token: I,
+    job: &mut CombineJob<'_>,
+    share: bool,
+) {
+    let CombineJob {
+        b,
+        constants,
+        ref mut out,
+        count,
+    } = *job;
+    assert!(count <= BATCH && count.is_multiple_of(WIDEST));
+    let (b, out) = (&b[..K::COMPONENTS], &mut out[..K::COMPONENTS]);
+    let constants = Constants::new(K::load(token, b, 0), constants, constants.len());
+    let mut lane = 0;
+    while lane < count {
+        let (x, y) = (K::load(token, out, lane), K::load(token, b, lane));
+        let result = if share {
+            C::share(x, y, &constants)
+        } else {
+            C::combine(x, y, &constants)
+        };
+        result.store(out, lane);
+        lane += Lanes::<I>::COUNT;
+    }
+}
+
+fn combine_values<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
+    dispatch!(level, token => combine_loop::<C, _, Lanes<_>>(token, job, false));
+}
+
+fn combine_gradients<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
+    dispatch!(level, token => combine_loop::<C, _, Dual<Lanes<_>>>(token, job, false));
+}
+
+fn combine_shares<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
+    dispatch!(level, token => combine_loop::<C, _, Lanes<_>>(token, job, true));
+}
+
+/// The work of an operator with one operand on one batch, in place.
+pub struct ModifyJob<'a> {
+    /// The formula's constants.
+    pub constants: &'a [f32],
+    /// The operand, and then the result.
+    pub out: &'a mut [Block],
+    /// How many points, a multiple of [`WIDEST`].
+    pub count: usize,
+}
+
+#[inline(always)]
+fn modify_loop<M: Modify, I: Simd, K: Packed<I>>(token: I, job: &mut ModifyJob<'_>) {
+    let ModifyJob {
+        constants,
+        ref mut out,
+        count,
+    } = *job;
+    assert!(count <= BATCH && count.is_multiple_of(WIDEST));
+    let out = &mut out[..K::COMPONENTS];
+    let constants = Constants::new(K::load(token, out, 0), constants, constants.len());
+    let mut lane = 0;
+    while lane < count {
+        M::modify(K::load(token, out, lane), &constants).store(out, lane);
+        lane += Lanes::<I>::COUNT;
+    }
+}
+
+fn modify_values<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
+    dispatch!(level, token => modify_loop::<M, _, Lanes<_>>(token, job));
+}
+
+fn modify_gradients<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
+    dispatch!(level, token => modify_loop::<M, _, Dual<Lanes<_>>>(token, job));
+}
+
+/// The affine map `p' = M p + t` as a formula; its twelve constants are the columns of `M`, then `t`.
+#[inline(always)]
+pub(crate) fn affine<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> Vec3<S> {
+    let [ax, ay, az, bx, by, bz, cx, cy, cz, tx, ty, tz] = c.get();
+    vec3(
+        ax * p.x + bx * p.y + cx * p.z + tx,
+        ay * p.x + by * p.y + cy * p.z + ty,
+        az * p.x + bz * p.y + cz * p.z + tz,
+    )
+}
+
+/// How many constants an affine map takes.
+pub(crate) const AFFINE_CONSTANTS: usize = 12;
+
+/// The work of an affine map on one batch of points.
+pub struct AffineJob<'a> {
+    /// The points.
+    pub from: &'a [Block],
+    /// The map's twelve constants.
+    pub constants: &'a [f32],
+    /// The mapped points.
+    pub to: &'a mut [Block],
+    /// How many points, a multiple of [`WIDEST`].
+    pub count: usize,
+}
+
+#[inline(always)]
+fn affine_loop<I: Simd, K: Packed<I>>(token: I, job: &mut AffineJob<'_>) {
+    let AffineJob {
+        from,
+        constants,
+        ref mut to,
+        count,
+    } = *job;
+    assert!(count <= BATCH && count.is_multiple_of(WIDEST));
+    let c = K::COMPONENTS;
+    let (from, to) = (&from[..3 * c], &mut to[..3 * c]);
+    let constants = Constants::new(K::load(token, from, 0), constants, AFFINE_CONSTANTS);
+    let mut lane = 0;
+    while lane < count {
+        let q = affine(load_point::<I, K>(token, from, lane), &constants);
+        q.x.store(&mut to[..c], lane);
+        q.y.store(&mut to[c..2 * c], lane);
+        q.z.store(&mut to[2 * c..], lane);
+        lane += Lanes::<I>::COUNT;
+    }
+}
+
+/// Maps a batch of points.
+pub(crate) fn affine_values(level: Level, job: &mut AffineJob<'_>) {
+    dispatch!(level, token => affine_loop::<_, Lanes<_>>(token, job));
+}
+
+/// Maps a batch of points with derivatives.
+pub(crate) fn affine_gradients(level: Level, job: &mut AffineJob<'_>) {
+    dispatch!(level, token => affine_loop::<_, Dual<Lanes<_>>>(token, job));
+}
+
+/// A primitive's formula over one number type.
+pub type PrimitiveFn<S> = fn(Vec3<S>, &Constants<'_, S>) -> S;
+/// A binary operator's formula over one number type.
+pub type CombineFn<S> = fn(S, S, &Constants<'_, S>) -> S;
+/// A unary operator's formula over one number type.
+pub type ModifyFn<S> = fn(S, &Constants<'_, S>) -> S;
+
+/// Value, gradient and (twice) Hessian in one number.
+pub type Dual2 = Dual<Dual<f64>>;
+
+macro_rules! kernels {
+    ($(#[$doc:meta])* $Kernels:ident, $Trait:ident :: $formula:ident, $Fn:ident, $Job:ident,
+     $values:ident, $gradients:ident, [$($arg:ident: $Arg:ty),*], expr [$($ExprArg:ty),*]
+     $(, $extra:ident = $extra_fn:ident)?) => {
+        $(#[$doc])*
+        #[derive(Debug)]
+        #[allow(missing_docs, reason = "one field for each number type")]
+        pub struct $Kernels {
+            pub values: fn(Level, &mut $Job<'_>),
+            pub gradients: fn(Level, &mut $Job<'_>),
+            $(pub $extra: fn(Level, &mut $Job<'_>),)?
+            pub real: $Fn<f64>,
+            pub interval: $Fn<Interval>,
+            pub dual: $Fn<Dual<f64>>,
+            pub dual2: $Fn<Dual2>,
+            pub expr: for<'g> fn($($ExprArg,)* &Constants<'_, Expr<'g>>) -> Expr<'g>,
+        }
+
+        impl $Kernels {
+            /// All instantiations of one formula.
+            pub const fn of<F: $Trait>() -> Self {
+                fn expr<'g, F: $Trait>($($arg: $ExprArg,)* c: &Constants<'_, Expr<'g>>) -> Expr<'g> {
+                    F::$formula($($arg,)* c)
+                }
+                Self {
+                    values: $values::<F>,
+                    gradients: $gradients::<F>,
+                    $($extra: $extra_fn::<F>,)?
+                    real: F::$formula::<f64>,
+                    interval: F::$formula::<Interval>,
+                    dual: F::$formula::<Dual<f64>>,
+                    dual2: F::$formula::<Dual2>,
+                    expr: expr::<F>,
+                }
+            }
+        }
+    };
+}
+
+kernels!(
+    /// A primitive's formula, for every number type.
+    PrimitiveKernels, Primitive::distance, PrimitiveFn, PrimitiveJob, primitive_values, primitive_gradients,
+    [p: Vec3<S>], expr [Vec3<Expr<'g>>]
+);
+kernels!(
+    /// A binary operator's formula, for every number type.
+    CombineKernels, Combine::combine, CombineFn, CombineJob, combine_values, combine_gradients,
+    [a: S, b: S], expr [Expr<'g>, Expr<'g>], shares = combine_shares
+);
+kernels!(
+    /// A unary operator's formula, for every number type.
+    ModifyKernels, Modify::modify, ModifyFn, ModifyJob, modify_values, modify_gradients,
+    [value: S], expr [Expr<'g>]
+);

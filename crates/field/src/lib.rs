@@ -1,0 +1,63 @@
+//! Signed distance fields: formulas, contracts, and evaluation.
+//!
+//! A [`Field`] is a tree of calls of [`Shape`]s: primitives, and functions that place, modify, combine and paint other
+//! fields. [`analyse`] finds its mistakes, its [`Contract`] and its [`Extent`]. [`Structure::compile`] flattens it into a
+//! short list of coarse operations, [`Structure::bind`] fills in the numbers, and an [`Evaluator`] runs the resulting
+//! [`Program`] over batches of points on the best instruction set of the machine:
+//!
+//! ```
+//! use freikugel_field::{Evaluator, Points, Structure, shapes::*};
+//!
+//! let cup = cylinder(1.0, 2.0) - cylinder(0.85, 2.0).at([0.0, 0.0, 0.2]);
+//! let structure = Structure::compile(&[cup]).expect("a sound field");
+//! let program = structure.program(glam::DVec3::ZERO);
+//!
+//! let (x, y, z) = ([0.0, 0.9, 3.0], [0.0; 3], [0.0; 3]);
+//! let mut distances = [0.0; 3];
+//! Evaluator::new(&program).values(Points { x: &x, y: &y, z: &z }, &mut distances);
+//! assert!(distances[0] > 0.0, "the middle is hollow");
+//! assert!(distances[1] < 0.0, "the wall is solid");
+//! assert_eq!(distances[2], 2.0);
+//! ```
+//!
+//! Every formula is written once, over a [`Scalar`]; see there for the number types it runs on. This crate knows nothing
+//! of files, cameras, colours, threads or graphics processors.
+
+pub mod analysis;
+pub mod compile;
+pub mod contract;
+pub mod diagnostic;
+pub mod evaluator;
+pub mod expr;
+pub mod field;
+pub mod kernel;
+pub mod program;
+pub mod ray;
+pub mod scalar;
+pub mod shape;
+pub mod shapes;
+pub mod simd;
+pub mod vector;
+
+pub use analysis::{Analysis, MAX_DEPTH, analyse, extent};
+pub use compile::{Region, Structure};
+pub use contract::{Aabb, Contract, Extent, Metric};
+pub use diagnostic::{Diagnostic, Severity};
+pub use evaluator::{Evaluator, Points, Shares};
+pub use field::{Axis, Field, Form, MaterialId, Node, Origin, Triple, Value};
+pub use program::Program;
+pub use scalar::{Constants, Dual, Interval, Scalar};
+pub use shape::{Arity, Kind, Param, ParamKind, Shape};
+pub use vector::{Vec3, vec3};
+
+/// What the files under `shapes/` need.
+mod shape_prelude {
+    pub(crate) use crate::contract::{Contract, Metric};
+    pub(crate) use crate::field::{Field, Form, Triple, Value};
+    pub(crate) use crate::scalar::{Constants, Scalar};
+    pub(crate) use crate::shape::{
+        AXIS, About, Combine, Hull, Modify, Param, ParamKind, Place, Primitive, RayFn, Shape,
+    };
+    pub(crate) use crate::vector::{Vec3, vec3};
+    pub(crate) use glam::{DAffine3, DMat3, DQuat, DVec3};
+}

@@ -1,0 +1,330 @@
+//! A structure with its numbers: what evaluators run.
+//!
+//! Constants are derived in `f64` and kept twice: rounded to `f32` and relative to the program's origin for batches, and
+//! as they are for evaluation at single points in `f64`, intervals, dual numbers and expressions, which all go through
+//! one generic interpreter.
+
+use crate::compile::{Code, Derive, Op, inverse_of};
+use crate::diagnostic::Diagnostic;
+use crate::expr::{Expr, Graph, Slots};
+use crate::kernel::{
+    CombineFn, CombineKernels, Dual2, Fold, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels,
+    affine,
+};
+use crate::scalar::{Constants, Dual, Interval, Scalar};
+use crate::vector::Vec3;
+use glam::DVec3;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Why numbers could not be bound.
+#[derive(Clone, Debug)]
+pub enum BindError {
+    /// There are not as many numbers as slots.
+    Count {
+        /// How many numbers there are.
+        given: usize,
+        /// How many slots there are.
+        wanted: usize,
+    },
+    /// The numbers are no sound arguments.
+    Faults(Vec<Diagnostic>),
+    /// With these numbers a shape needs another number of constants: the field must be compiled anew.
+    Structure,
+}
+
+impl std::fmt::Display for BindError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Count { given, wanted } => write!(f, "{given} numbers for {wanted} slots"),
+            Self::Faults(faults) => faults.iter().try_for_each(|fault| writeln!(f, "{fault}")),
+            Self::Structure => f.write_str("these numbers need another structure"),
+        }
+    }
+}
+
+impl std::error::Error for BindError {}
+
+/// A compiled field with its numbers. Cheap to clone; share it between threads.
+#[derive(Clone, Debug)]
+pub struct Program {
+    pub(crate) code: Arc<Code>,
+    /// For batches: relative to the origin.
+    pub(crate) single: Arc<[f32]>,
+    /// For single points: absolute.
+    double: Arc<[f64]>,
+    origin: DVec3,
+    lipschitz: Option<f64>,
+}
+
+impl Program {
+    pub(crate) fn bind(
+        code: &Arc<Code>,
+        values: &[f64],
+        origin: DVec3,
+        lipschitz: Option<f64>,
+    ) -> Result<Self, BindError> {
+        let double = derive(code, values, DVec3::ZERO)?;
+        let single = derive(code, values, origin)?
+            .iter()
+            .map(|&c| c as f32)
+            .collect();
+        Ok(Self {
+            code: Arc::clone(code),
+            single,
+            double: double.into(),
+            origin,
+            lipschitz,
+        })
+    }
+
+    /// What the points of batches are relative to.
+    pub fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// The largest slope of the field, if it is known.
+    pub fn lipschitz(&self) -> Option<f64> {
+        self.lipschitz
+    }
+
+    /// The field at a point, in `f64`.
+    pub fn value(&self, p: DVec3) -> f64 {
+        self.run(p.to_array().into())
+    }
+
+    /// The field and its gradient at a point, in `f64`.
+    pub fn gradient(&self, p: DVec3) -> (f64, DVec3) {
+        let [x, y, z] = p.to_array();
+        let result = self.run([Dual::input(x, 0), Dual::input(y, 1), Dual::input(z, 2)].into());
+        (result.value, result.gradient.into())
+    }
+
+    /// The field, its gradient and its Hessian (by columns) at a point, in `f64`.
+    pub fn hessian(&self, p: DVec3) -> (f64, DVec3, glam::DMat3) {
+        let input = |axis: usize| Dual2 {
+            value: Dual::input(p[axis], axis),
+            gradient: std::array::from_fn(|i| Dual::independent(if i == axis { 1.0 } else { 0.0 })),
+        };
+        let result: Dual2 = self.run([input(0), input(1), input(2)].into());
+        let [x, y, z] = result.gradient.map(|d| d.gradient.into());
+        (
+            result.value.value,
+            result.value.gradient.into(),
+            glam::DMat3::from_cols(x, y, z),
+        )
+    }
+
+    /// An enclosure of the field's values over a box.
+    ///
+    /// Where the field's slope is known, the value in the middle and the slope give a second enclosure, which the result
+    /// is cut with: it stays narrow where the formula repeats its variables.
+    pub fn interval(&self, region: [Interval; 3]) -> Interval {
+        let natural = self.run(region.into());
+        let Some(lipschitz) = self.lipschitz else {
+            return natural;
+        };
+        let middle = region.map(|side| Interval::point(side.middle()));
+        let reach = region.map(|side| {
+            let middle = Interval::point(side.middle());
+            (side - middle).abs().hi()
+        });
+        let [x, y, z] = reach.map(Interval::point);
+        let drift = Interval::length3(x, y, z) * lipschitz;
+        if !drift.hi().is_finite() {
+            return natural;
+        }
+        let center: Interval = self.run(middle.into());
+        natural.meet(center + Interval::new(-drift.hi(), drift.hi()))
+    }
+
+    /// Records the field's formula. The constants of its operations are the slots of the graph, in the order of
+    /// [`Program::constants`].
+    pub fn expression<'g>(&self, graph: &'g Graph) -> Expr<'g> {
+        self.run(graph.point().into())
+    }
+
+    /// The constants of all operations, for absolute points.
+    pub fn constants(&self) -> &[f64] {
+        &self.double
+    }
+
+    fn run<S: Host>(&self, p: Vec3<S>) -> S {
+        let infinite = p.x.lift(f64::INFINITY);
+        let mut points = vec![p; self.code.registers.points];
+        let mut values = vec![infinite; self.code.registers.values];
+        let like = p.x;
+        for op in &self.code.ops {
+            match op {
+                Op::Affine {
+                    from,
+                    to,
+                    constants,
+                } => {
+                    let from = points[*from];
+                    points[*to] = S::with_table(&self.double, constants, |table| {
+                        affine(from, &Constants::new(like, table, 12))
+                    });
+                }
+                Op::Primitive {
+                    table,
+                    point,
+                    at,
+                    constants,
+                    fold,
+                    out,
+                    ..
+                } => {
+                    let at = S::with_table(&self.double, at, |table| {
+                        Constants::new(like, table, 3).get::<3>()
+                    });
+                    let p = points[*point] - at.into();
+                    let value = S::with_table(&self.double, constants, |slots| {
+                        S::primitive(&table.kernels)(
+                            p,
+                            &Constants::new(like, slots, constants.len()),
+                        )
+                    });
+                    values[*out] = match fold {
+                        Fold::Set => value,
+                        Fold::Min => values[*out].min(value),
+                    };
+                }
+                Op::Combine {
+                    table,
+                    a,
+                    b,
+                    out,
+                    constants,
+                } => {
+                    let (a, b) = (values[*a], values[*b]);
+                    values[*out] = S::with_table(&self.double, constants, |slots| {
+                        S::combine(&table.kernels)(
+                            a,
+                            b,
+                            &Constants::new(like, slots, constants.len()),
+                        )
+                    });
+                }
+                Op::Modify {
+                    table,
+                    value,
+                    constants,
+                } => {
+                    let before = values[*value];
+                    values[*value] = S::with_table(&self.double, constants, |slots| {
+                        S::modify(&table.kernels)(
+                            before,
+                            &Constants::new(like, slots, constants.len()),
+                        )
+                    });
+                }
+                Op::Scale { value, factor } => {
+                    let factor = S::with_table(&self.double, &(*factor..*factor + 1), |table| {
+                        like.constant(table, 0)
+                    });
+                    values[*value] = values[*value] * factor;
+                }
+            }
+        }
+        values[self.code.registers.result]
+    }
+}
+
+/// All constants, with points taken relative to `origin`.
+fn derive(code: &Code, values: &[f64], origin: DVec3) -> Result<Vec<f64>, BindError> {
+    let mut constants = vec![0.0; code.constants];
+    for derive in &code.derive {
+        match derive {
+            Derive::Prepare { prepare, args, out } => {
+                let own = prepare(&values[args.clone()]);
+                if own.len() != out.len() {
+                    return Err(BindError::Structure);
+                }
+                constants[out.clone()].copy_from_slice(&own);
+            }
+            Derive::Affine {
+                chain,
+                from_root,
+                out,
+            } => {
+                let (matrix, mut translation) = inverse_of(chain, values);
+                if *from_root {
+                    translation += matrix * origin;
+                }
+                constants[out.start..out.start + 9].copy_from_slice(&matrix.to_cols_array());
+                constants[out.start + 9..out.end].copy_from_slice(&translation.to_array());
+            }
+            Derive::Offset {
+                chain,
+                from_root,
+                out,
+            } => {
+                let (_, mut translation) = inverse_of(chain, values);
+                if *from_root {
+                    translation += origin;
+                }
+                constants[out.clone()].copy_from_slice(&(-translation).to_array());
+            }
+            Derive::Factor { table, args, out } => {
+                constants[*out] = (table.factor)(&values[args.clone()])
+            }
+        }
+    }
+    Ok(constants)
+}
+
+/// A number type that single points are evaluated in.
+trait Host: Scalar {
+    fn primitive(kernels: &PrimitiveKernels) -> PrimitiveFn<Self>;
+    fn combine(kernels: &CombineKernels) -> CombineFn<Self>;
+    fn modify(kernels: &ModifyKernels) -> ModifyFn<Self>;
+    fn with_table<R>(
+        constants: &[f64],
+        range: &Range<usize>,
+        read: impl FnOnce(&Self::Table) -> R,
+    ) -> R;
+}
+
+macro_rules! host {
+    ($($Number:ty: $field:ident),*) => {$(
+        impl Host for $Number {
+            fn primitive(kernels: &PrimitiveKernels) -> PrimitiveFn<Self> {
+                kernels.$field
+            }
+            fn combine(kernels: &CombineKernels) -> CombineFn<Self> {
+                kernels.$field
+            }
+            fn modify(kernels: &ModifyKernels) -> ModifyFn<Self> {
+                kernels.$field
+            }
+            fn with_table<R>(constants: &[f64], range: &Range<usize>, read: impl FnOnce(&[f64]) -> R) -> R {
+                read(&constants[range.clone()])
+            }
+        }
+    )*};
+}
+
+host!(f64: real, Interval: interval, Dual<f64>: dual, Dual2: dual2);
+
+impl Host for Expr<'_> {
+    fn primitive(kernels: &PrimitiveKernels) -> PrimitiveFn<Self> {
+        kernels.expr
+    }
+
+    fn combine(kernels: &CombineKernels) -> CombineFn<Self> {
+        kernels.expr
+    }
+
+    fn modify(kernels: &ModifyKernels) -> ModifyFn<Self> {
+        kernels.expr
+    }
+
+    fn with_table<R>(
+        _constants: &[f64],
+        range: &Range<usize>,
+        read: impl FnOnce(&Slots) -> R,
+    ) -> R {
+        read(&Slots(range.start as u32))
+    }
+}

@@ -1,0 +1,167 @@
+//! The number type a formula is generic over.
+//!
+//! A formula is written once, as a function over [`Scalar`], and instantiated with plain `f64` ([`real`]), SIMD lanes
+//! ([`Lanes`]), outward-rounded intervals ([`Interval`]), dual numbers ([`Dual`], nested for second derivatives) and an
+//! expression builder ([`crate::expr::Expr`]) that yields shader text.
+//!
+//! Two rules keep one definition valid for all of them. Constants enter through values (`x * 0.5`, `x.lift(0.5)`),
+//! because lanes carry the proof that their instruction set exists and expressions carry their arena. Branches are
+//! [`Scalar::select`], loops are [`Scalar::iterate`]; a formula never asks a scalar for a plain `bool`.
+
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+mod dual;
+mod interval;
+mod lanes;
+mod real;
+
+pub use dual::Dual;
+pub use interval::{Interval, Trilean};
+pub use lanes::{LaneMask, Lanes};
+
+/// The outcome of a comparison, one truth value for each lane.
+pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {}
+
+impl<M: Copy + BitAnd<Output = M> + BitOr<Output = M> + Not<Output = M>> Mask for M {}
+
+/// A number a distance formula can be computed with.
+pub trait Scalar:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+{
+    /// What a comparison of two scalars yields.
+    type Mask: Mask;
+    /// Where [`Constants`] are read from: a slice of numbers, or the place of shader parameters.
+    type Table: ?Sized;
+
+    /// The constant `c`, as a scalar of the kind of `self`.
+    fn lift(self, c: f64) -> Self;
+
+    /// The entry `index` of a table of constants.
+    fn constant(self, table: &Self::Table, index: usize) -> Self;
+
+    /// `if self < rhs`.
+    fn lt(self, rhs: Self) -> Self::Mask;
+
+    /// `if mask { yes } else { no }`, lane by lane.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// Whether any lane of the mask may be true. Only [`Scalar::iterate`] needs it, to leave its loop early.
+    fn any(mask: Self::Mask) -> bool;
+
+    /// The square root; the argument must not be negative.
+    fn sqrt(self) -> Self;
+
+    /// The absolute value; its derivative at 0 counts as +1.
+    fn abs(self) -> Self {
+        Self::select(self.lt(self.lift(0.0)), -self, self)
+    }
+
+    /// The smaller one; `rhs` where they are equal or not comparable.
+    fn min(self, rhs: Self) -> Self {
+        Self::select(self.lt(rhs), self, rhs)
+    }
+
+    /// The larger one; `rhs` where they are equal or not comparable.
+    fn max(self, rhs: Self) -> Self {
+        Self::select(rhs.lt(self), self, rhs)
+    }
+
+    /// `self * self`; never negative in any number type.
+    fn square(self) -> Self {
+        self * self
+    }
+
+    /// `sqrt(a^2 + b^2)`, with derivative 0 instead of 0/0 at the origin.
+    fn length2(a: Self, b: Self) -> Self {
+        (a.square() + b.square()).sqrt()
+    }
+
+    /// `sqrt(a^2 + b^2 + c^2)`, with derivative 0 instead of 0/0 at the origin.
+    fn length3(a: Self, b: Self, c: Self) -> Self {
+        (a.square() + b.square() + c.square()).sqrt()
+    }
+
+    /// `self` limited to `[low, high]`.
+    fn clamp(self, low: f64, high: f64) -> Self {
+        self.max(self.lift(low)).min(self.lift(high))
+    }
+
+    /// Applies `step` to `state` at most `limit` times. `step` returns the next state and whether to go on; a lane that
+    /// says no keeps that state while others continue.
+    ///
+    /// Write the step as `#[inline(always)] |state| ...`: a step that is not inlined loses the instruction set.
+    #[inline(always)]
+    fn iterate<const N: usize>(
+        limit: u32,
+        mut state: [Self; N],
+        step: impl Fn([Self; N]) -> ([Self; N], Self::Mask),
+    ) -> [Self; N] {
+        let mut running: Option<Self::Mask> = None;
+        for _ in 0..limit {
+            let (next, go_on) = step(state);
+            running = Some(match running {
+                None => {
+                    state = next;
+                    go_on
+                }
+                Some(active) => {
+                    for (s, n) in state.iter_mut().zip(next) {
+                        *s = Self::select(active, n, *s);
+                    }
+                    active & go_on
+                }
+            });
+            if running.is_some_and(|active| !Self::any(active)) {
+                break;
+            }
+        }
+        state
+    }
+}
+
+/// The constants of one node: what its parameters were turned into by its `prepare` function.
+pub struct Constants<'t, S: Scalar> {
+    like: S,
+    table: &'t S::Table,
+    len: usize,
+}
+
+impl<'t, S: Scalar> Constants<'t, S> {
+    /// The first `len` entries of `table`, read as scalars of the kind of `like`.
+    #[inline(always)]
+    pub fn new(like: S, table: &'t S::Table, len: usize) -> Self {
+        Self { like, table, len }
+    }
+
+    /// How many there are. Fixed for most shapes; lists have as many as the user wrote.
+    #[inline(always)]
+    pub fn count(&self) -> usize {
+        self.len
+    }
+
+    /// The constant at `index`.
+    #[inline(always)]
+    pub fn at(&self, index: usize) -> S {
+        self.like.constant(self.table, index)
+    }
+
+    /// The first `N` constants.
+    #[inline(always)]
+    pub fn get<const N: usize>(&self) -> [S; N] {
+        let mut out = [self.like; N];
+        let mut index = 0;
+        while index < N {
+            out[index] = self.at(index);
+            index += 1;
+        }
+        out
+    }
+}

@@ -1,0 +1,151 @@
+//! SIMD lanes of `f32`: the hot path.
+//!
+//! No fused multiply-add and no approximate reciprocals, and min and max are those selects that every x86 level has as
+//! one instruction (the second operand wins on ties and NaN): results are the same bits on SSE2, AVX2 and AVX-512.
+
+use super::Scalar;
+use fearless_simd::{ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdMask};
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+/// One native-width vector of `f32` on the instruction set `I`.
+#[derive(Clone, Copy, Debug)]
+pub struct Lanes<I: Simd>(I::f32s);
+
+/// One truth value for each lane of [`Lanes`].
+#[derive(Clone, Copy)]
+pub struct LaneMask<I: Simd>(<I::f32s as SimdBase<I>>::Mask);
+
+impl<I: Simd> Lanes<I> {
+    /// How many lanes there are.
+    pub const COUNT: usize = <I::f32s as SimdBase<I>>::LEN;
+
+    /// All lanes from the [`Self::COUNT`] numbers of `from`.
+    #[inline(always)]
+    pub fn load(token: I, from: &[f32]) -> Self {
+        Self(I::f32s::from_slice(token, from))
+    }
+
+    /// Writes all lanes to `to`, which has [`Self::COUNT`] places.
+    #[inline(always)]
+    pub fn store(self, to: &mut [f32]) {
+        self.0.store_slice(to);
+    }
+
+    /// `value` in every lane.
+    #[inline(always)]
+    pub fn splat(token: I, value: f32) -> Self {
+        Self(I::f32s::splat(token, value))
+    }
+}
+
+macro_rules! arithmetic {
+    ($($Trait:ident $method:ident),*) => {$(
+        impl<I: Simd> $Trait for Lanes<I> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, rhs: Self) -> Self {
+                Self($Trait::$method(self.0, rhs.0))
+            }
+        }
+    )*};
+}
+
+arithmetic!(Add add, Sub sub, Mul mul, Div div);
+
+macro_rules! with_constant {
+    ($($Trait:ident $method:ident),*) => {$(
+        impl<I: Simd> $Trait<f64> for Lanes<I> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, rhs: f64) -> Self {
+                $Trait::$method(self, self.lift(rhs))
+            }
+        }
+    )*};
+}
+
+with_constant!(Add add, Sub sub, Mul mul);
+
+impl<I: Simd> Neg for Lanes<I> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl<I: Simd> BitAnd for LaneMask<I> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, rhs: Self) -> Self {
+        Self(self.0 & rhs.0)
+    }
+}
+
+impl<I: Simd> BitOr for LaneMask<I> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(self, rhs: Self) -> Self {
+        Self(self.0 | rhs.0)
+    }
+}
+
+impl<I: Simd> Not for LaneMask<I> {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(!self.0)
+    }
+}
+
+impl<I: Simd> Scalar for Lanes<I> {
+    type Mask = LaneMask<I>;
+    type Table = [f32];
+
+    #[inline(always)]
+    fn lift(self, c: f64) -> Self {
+        Self::splat(self.0.token(), c as f32)
+    }
+
+    #[inline(always)]
+    fn constant(self, table: &[f32], index: usize) -> Self {
+        Self::splat(self.0.token(), table[index])
+    }
+
+    #[inline(always)]
+    fn lt(self, rhs: Self) -> LaneMask<I> {
+        LaneMask(self.0.simd_lt(rhs.0))
+    }
+
+    #[inline(always)]
+    fn select(mask: LaneMask<I>, yes: Self, no: Self) -> Self {
+        Self(mask.0.select(yes.0, no.0))
+    }
+
+    #[inline(always)]
+    fn any(mask: LaneMask<I>) -> bool {
+        mask.0.any_true()
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn min(self, rhs: Self) -> Self {
+        Self(self.0.min(rhs.0))
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn max(self, rhs: Self) -> Self {
+        Self(self.0.max(rhs.0))
+    }
+}

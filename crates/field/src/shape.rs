@@ -1,0 +1,496 @@
+//! Descriptors: everything the system knows about a function that makes or changes a field.
+//!
+//! A [`Shape`] is static data plus the kernels instantiated from one generic formula. The scene reader, the schema, the
+//! documentation, the evaluator and the shader text all read descriptors; none of them keeps a list of its own. A new
+//! function is one file under `shapes/` that implements one of the four traits here:
+//!
+//! - [`Primitive`]: a point and parameters to a distance;
+//! - [`Combine`]: distances of several children to one, folded from left to right;
+//! - [`Place`]: an affine map of space;
+//! - [`Modify`]: one distance to another.
+
+use crate::contract::Contract;
+use crate::kernel::{CombineKernels, ModifyKernels, PrimitiveKernels};
+use crate::scalar::{Constants, Scalar};
+use crate::vector::Vec3;
+use glam::{DAffine3, DVec3};
+
+/// What a user reads about a function, and what a reader of scenes needs to decode it.
+#[derive(Clone, Copy, Debug)]
+pub struct About {
+    /// The name in scene files and in the library.
+    pub name: &'static str,
+    /// One sentence: what it is.
+    pub summary: &'static str,
+    /// The parameters, in the order of the library's constructor. Only the last one may be a list.
+    pub params: &'static [Param],
+    /// Names of the same thing in other systems.
+    pub elsewhere: &'static [&'static str],
+    /// A complete shape in scene notation.
+    pub example: &'static str,
+}
+
+/// One parameter of a function.
+#[derive(Clone, Copy, Debug)]
+pub struct Param {
+    /// Its key in scene files.
+    pub name: &'static str,
+    /// What values it takes.
+    pub kind: ParamKind,
+    /// Its numbers if the user writes none; `None` for a required parameter.
+    pub default: Option<&'static [f64]>,
+    /// What it means, with its unit if it has one.
+    pub about: &'static str,
+}
+
+/// What values a parameter takes. Each kind is stored as a fixed number of `f64`, except the list.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ParamKind {
+    /// Any finite number.
+    Number,
+    /// A length, not negative.
+    Length,
+    /// A length above 0.
+    Positive,
+    /// A factor other than 0.
+    Factor,
+    /// An angle: degrees in files, radians inside.
+    Angle,
+    /// One of several names, stored as its index. Files that were written with numbers may use those instead, where
+    /// every name is one.
+    Choice(&'static [&'static str]),
+    /// Yes or no, stored as 1 or 0.
+    Flag,
+    /// A point or displacement.
+    Vector,
+    /// A vector other than 0; its length does not matter.
+    Direction,
+    /// Three full lengths above 0; a single number stands for three equal ones.
+    Size,
+    /// Three factors other than 0.
+    Factors,
+    /// Three angles about x, y and z.
+    Angles,
+    /// A quaternion x, y, z, w other than 0; its length does not matter.
+    Quaternion,
+    /// A list of half-spaces, each with an outward normal and the distance of its plane from the origin: x, y, z, d.
+    HalfSpaces,
+}
+
+impl ParamKind {
+    /// How many numbers hold one value (one entry, for a list).
+    pub const fn width(self) -> usize {
+        match self {
+            Self::Number
+            | Self::Length
+            | Self::Positive
+            | Self::Factor
+            | Self::Angle
+            | Self::Choice(_)
+            | Self::Flag => 1,
+            Self::Vector | Self::Direction | Self::Size | Self::Factors | Self::Angles => 3,
+            Self::Quaternion | Self::HalfSpaces => 4,
+        }
+    }
+
+    /// Whether the value is a list of entries.
+    pub const fn is_list(self) -> bool {
+        matches!(self, Self::HalfSpaces)
+    }
+
+    /// Why `value` is not one of this kind, or `None` if it is. The numbers are as stored: angles in radians.
+    pub fn fault(self, value: &[f64]) -> Option<String> {
+        if value.iter().any(|v| !v.is_finite()) {
+            return Some("must be finite".into());
+        }
+        let length = value.iter().map(|v| v * v).sum::<f64>().sqrt();
+        match self {
+            Self::Length if value[0] < 0.0 => {
+                Some(format!("must not be negative, but is {}", value[0]))
+            }
+            Self::Positive if value[0] <= 0.0 => {
+                Some(format!("must be above 0, but is {}", value[0]))
+            }
+            Self::Factor if value[0] == 0.0 => {
+                Some("must not be 0: it would flatten the shape".into())
+            }
+            Self::Size if value.iter().any(|&v| v <= 0.0) => {
+                Some("must be above 0 in every direction".into())
+            }
+            Self::Factors if value.contains(&0.0) => Some("must not be 0 in any direction".into()),
+            Self::Direction if length < SHORTEST_DIRECTION => {
+                Some("must not be the zero vector".into())
+            }
+            Self::Quaternion if length < SHORTEST_DIRECTION => {
+                Some("must not be the zero quaternion".into())
+            }
+            Self::HalfSpaces => value.chunks(4).enumerate().find_map(|(i, plane)| {
+                (DVec3::new(plane[0], plane[1], plane[2]).length() < SHORTEST_DIRECTION)
+                    .then(|| format!("entry {i} has a zero normal"))
+            }),
+            _ => None,
+        }
+    }
+}
+
+/// Below this length a direction's components lose precision when it is normalised.
+pub const SHORTEST_DIRECTION: f64 = 1e-100;
+
+impl Param {
+    /// A parameter without default.
+    pub const fn required(name: &'static str, kind: ParamKind, about: &'static str) -> Self {
+        Self {
+            name,
+            kind,
+            default: None,
+            about,
+        }
+    }
+
+    /// A parameter with a default.
+    pub const fn optional(
+        name: &'static str,
+        kind: ParamKind,
+        default: &'static [f64],
+        about: &'static str,
+    ) -> Self {
+        Self {
+            name,
+            kind,
+            default: Some(default),
+            about,
+        }
+    }
+}
+
+/// The axis an axial shape stands along; always its last parameter. Formulas are written for z.
+pub const AXIS: Param = Param::optional(
+    "axis",
+    ParamKind::Choice(&["x", "y", "z"]),
+    &[2.0],
+    "The axis it stands along.",
+);
+
+/// A field made from nothing but parameters.
+pub trait Primitive: 'static {
+    /// Description and parameters.
+    const ABOUT: About;
+
+    /// A fault that no single parameter shows, as a sentence.
+    ///
+    /// # Errors
+    /// The fault.
+    fn check(_args: &[f64]) -> Result<(), String> {
+        Ok(())
+    }
+
+    /// The constants of the formula, from parameters that passed all checks.
+    fn prepare(args: &[f64]) -> Vec<f64> {
+        args.to_vec()
+    }
+
+    /// What is known about the field, apart from its extent.
+    fn contract(_args: &[f64]) -> Contract {
+        Contract::EXACT
+    }
+
+    /// The largest value of `direction . p` over all `p` where the field is at most `level`, or an upper bound of it;
+    /// infinite for an unbounded shape. `level` is 0 for the shape itself and above 0 for the shape grown by operators.
+    fn support(args: &[f64], direction: DVec3, level: f64) -> f64;
+
+    /// The exact first point where the ray from `origin` along the unit vector `direction` meets the surface or starts
+    /// inside, as a distance along it. Only shapes that have one, and that profit, name it.
+    const RAY: Option<RayFn> = None;
+
+    /// The formula.
+    fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S;
+}
+
+/// An exact ray intersection: parameters, origin, unit direction.
+pub type RayFn = fn(&[f64], DVec3, DVec3) -> Option<f64>;
+
+/// Several fields made into one, folded from left to right.
+pub trait Combine: 'static {
+    /// Description and parameters.
+    const ABOUT: About;
+
+    /// Whether folding is the plain minimum, which the evaluator fuses with primitives.
+    const IS_MINIMUM: bool = false;
+
+    /// The constants of the formula.
+    fn prepare(args: &[f64]) -> Vec<f64> {
+        args.to_vec()
+    }
+
+    /// The contract of one fold step.
+    ///
+    /// # Errors
+    /// Why these two can't be combined, as a sentence.
+    fn contract(args: &[f64], a: Contract, b: Contract) -> Result<Contract, String>;
+
+    /// How the support of the result follows from those of the operands; see [`Primitive::support`].
+    const HULL: Hull;
+
+    /// The levels of the two operands that decide where the result is at most `level`.
+    fn levels(_args: &[f64], level: f64) -> (f64, f64) {
+        (level, level)
+    }
+
+    /// The formula.
+    fn combine<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S;
+
+    /// The share of `b` in the result's material, in `[0, 1]`: the size of the partial derivative of
+    /// [`Combine::combine`] by `b`. The rest is `a`'s.
+    fn share<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S;
+}
+
+/// An affine map of space.
+pub trait Place: 'static {
+    /// Description and parameters.
+    const ABOUT: About;
+
+    /// The map from the child's space to the parent's.
+    fn map(args: &[f64]) -> DAffine3;
+
+    /// Whether the map never changes a distance, whatever its parameters.
+    const IS_RIGID: bool = true;
+
+    /// Whether the map is a translation, whatever its parameters.
+    const IS_TRANSLATION: bool = false;
+
+    /// What the child's distance is multiplied with: the smallest factor by which the map stretches a length.
+    fn factor(_args: &[f64]) -> f64 {
+        1.0
+    }
+
+    /// Whether the map stretches all directions alike, so that exact distances stay exact.
+    fn is_similarity(_args: &[f64]) -> bool {
+        true
+    }
+}
+
+/// A change of the distance alone.
+pub trait Modify: 'static {
+    /// Description and parameters.
+    const ABOUT: About;
+
+    /// The constants of the formula.
+    fn prepare(args: &[f64]) -> Vec<f64> {
+        args.to_vec()
+    }
+
+    /// The contract of the result.
+    ///
+    /// # Errors
+    /// Why the child can't be modified so, as a sentence.
+    fn contract(args: &[f64], child: Contract) -> Result<Contract, String>;
+
+    /// Something the user should know about this use, as a sentence.
+    fn warning(_args: &[f64], _child: Contract) -> Option<String> {
+        None
+    }
+
+    /// The level of the child whose inside covers that of the result at `level`; `None` if none does.
+    fn level(args: &[f64], level: f64) -> Option<f64>;
+
+    /// The formula.
+    fn modify<S: Scalar>(value: S, c: &Constants<'_, S>) -> S;
+}
+
+/// A function that makes or changes a field.
+#[derive(Debug)]
+pub struct Shape {
+    /// Description and parameters.
+    pub about: About,
+    /// What it does.
+    pub kind: Kind,
+}
+
+/// The kinds of functions.
+#[derive(Debug)]
+pub enum Kind {
+    /// See [`Primitive`].
+    Primitive(PrimitiveTable),
+    /// See [`Combine`].
+    Combine(CombineTable),
+    /// See [`Place`].
+    Place(PlaceTable),
+    /// See [`Modify`].
+    Modify(ModifyTable),
+    /// Gives its child a material.
+    Paint,
+}
+
+/// The functions of a [`Primitive`].
+#[derive(Debug)]
+#[allow(
+    missing_docs,
+    reason = "documented at the trait's items of the same names"
+)]
+pub struct PrimitiveTable {
+    pub check: fn(&[f64]) -> Result<(), String>,
+    pub prepare: fn(&[f64]) -> Vec<f64>,
+    pub contract: fn(&[f64]) -> Contract,
+    pub support: fn(&[f64], DVec3, f64) -> f64,
+    pub ray: Option<RayFn>,
+    pub kernels: PrimitiveKernels,
+}
+
+/// What part of its operands' space a combination fills.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hull {
+    /// At most that of both together.
+    Both,
+    /// At most what both have in common.
+    Common,
+    /// At most that of the first.
+    First,
+}
+
+/// The functions of a [`Combine`].
+#[derive(Debug)]
+#[allow(
+    missing_docs,
+    reason = "documented at the trait's items of the same names"
+)]
+pub struct CombineTable {
+    pub is_minimum: bool,
+    pub prepare: fn(&[f64]) -> Vec<f64>,
+    pub contract: fn(&[f64], Contract, Contract) -> Result<Contract, String>,
+    pub hull: Hull,
+    pub levels: fn(&[f64], f64) -> (f64, f64),
+    pub kernels: CombineKernels,
+}
+
+/// The functions of a [`Place`].
+#[derive(Debug)]
+#[allow(
+    missing_docs,
+    reason = "documented at the trait's items of the same names"
+)]
+pub struct PlaceTable {
+    pub is_rigid: bool,
+    pub is_translation: bool,
+    pub map: fn(&[f64]) -> DAffine3,
+    pub factor: fn(&[f64]) -> f64,
+    pub is_similarity: fn(&[f64]) -> bool,
+}
+
+/// The functions of a [`Modify`].
+#[derive(Debug)]
+#[allow(
+    missing_docs,
+    reason = "documented at the trait's items of the same names"
+)]
+pub struct ModifyTable {
+    pub prepare: fn(&[f64]) -> Vec<f64>,
+    pub contract: fn(&[f64], Contract) -> Result<Contract, String>,
+    pub warning: fn(&[f64], Contract) -> Option<String>,
+    pub level: fn(&[f64], f64) -> Option<f64>,
+    pub kernels: ModifyKernels,
+}
+
+impl Shape {
+    /// The descriptor of a primitive.
+    pub const fn primitive<P: Primitive>() -> Self {
+        Self {
+            about: P::ABOUT,
+            kind: Kind::Primitive(PrimitiveTable {
+                check: P::check,
+                prepare: P::prepare,
+                contract: P::contract,
+                support: P::support,
+                ray: P::RAY,
+                kernels: PrimitiveKernels::of::<P>(),
+            }),
+        }
+    }
+
+    /// The descriptor of a way to combine fields.
+    pub const fn combine<C: Combine>() -> Self {
+        Self {
+            about: C::ABOUT,
+            kind: Kind::Combine(CombineTable {
+                is_minimum: C::IS_MINIMUM,
+                prepare: C::prepare,
+                contract: C::contract,
+                hull: C::HULL,
+                levels: C::levels,
+                kernels: CombineKernels::of::<C>(),
+            }),
+        }
+    }
+
+    /// The descriptor of an affine map.
+    pub const fn place<P: Place>() -> Self {
+        Self {
+            about: P::ABOUT,
+            kind: Kind::Place(PlaceTable {
+                is_rigid: P::IS_RIGID,
+                is_translation: P::IS_TRANSLATION,
+                map: P::map,
+                factor: P::factor,
+                is_similarity: P::is_similarity,
+            }),
+        }
+    }
+
+    /// The descriptor of a change of the distance.
+    pub const fn modify<M: Modify>() -> Self {
+        Self {
+            about: M::ABOUT,
+            kind: Kind::Modify(ModifyTable {
+                prepare: M::prepare,
+                contract: M::contract,
+                warning: M::warning,
+                level: M::level,
+                kernels: ModifyKernels::of::<M>(),
+            }),
+        }
+    }
+
+    /// How many children it takes: none, exactly one, or any number above 0.
+    pub fn arity(&self) -> Arity {
+        match self.kind {
+            Kind::Primitive(_) => Arity::None,
+            Kind::Combine(_) => Arity::Many,
+            Kind::Place(_) | Kind::Modify(_) | Kind::Paint => Arity::One,
+        }
+    }
+
+    /// Whether it stands along an axis the user chooses (its last parameter is then [`AXIS`]).
+    pub fn is_axial(&self) -> bool {
+        self.about
+            .params
+            .last()
+            .is_some_and(|p| p.name == AXIS.name)
+    }
+
+    /// Where the numbers of parameter `index` lie among the arguments of a node with `count` numbers in all.
+    ///
+    /// # Panics
+    /// If there is no such parameter.
+    pub fn range(&self, index: usize, count: usize) -> std::ops::Range<usize> {
+        let start = self.about.params[..index]
+            .iter()
+            .map(|p| p.kind.width())
+            .sum();
+        let kind = self.about.params[index].kind;
+        start..if kind.is_list() {
+            count
+        } else {
+            start + kind.width()
+        }
+    }
+}
+
+/// How many children a function takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arity {
+    /// None.
+    None,
+    /// Exactly one.
+    One,
+    /// One or more.
+    Many,
+}

@@ -1,0 +1,103 @@
+//! All shapes, one file each.
+//!
+//! Generated from the files in this folder by `cargo xtask shapes`; a test keeps it fresh. To add a shape, write its file
+//! and run that command.
+
+pub mod r#box;
+pub mod capsule;
+pub mod complement;
+pub mod cone;
+pub mod convex_polyhedron;
+pub mod convex_polyhedron_bound;
+pub mod cylinder;
+pub mod difference;
+pub mod ellipsoid;
+pub mod ellipsoid_bound;
+pub mod intersection;
+pub mod offset;
+pub mod paint;
+pub mod plane;
+mod polynomial;
+pub mod reflect;
+pub mod rotate;
+pub mod rotate_euler;
+pub mod rotate_quaternion;
+pub mod scale;
+pub mod sheet;
+pub mod shell;
+pub mod smooth_difference;
+pub mod smooth_intersection;
+pub mod smooth_union;
+pub mod sphere;
+pub mod stretch;
+pub mod torus;
+pub mod translate;
+pub mod union;
+pub mod xor;
+
+pub use r#box::*;
+pub use capsule::*;
+pub use complement::*;
+pub use cone::*;
+pub use convex_polyhedron::*;
+pub use convex_polyhedron_bound::*;
+pub use cylinder::*;
+pub use difference::*;
+pub use ellipsoid::*;
+pub use ellipsoid_bound::*;
+pub use intersection::*;
+pub use offset::*;
+pub use paint::*;
+pub use plane::*;
+pub use reflect::*;
+pub use rotate::*;
+pub use rotate_euler::*;
+pub use rotate_quaternion::*;
+pub use scale::*;
+pub use sheet::*;
+pub use shell::*;
+pub use smooth_difference::*;
+pub use smooth_intersection::*;
+pub use smooth_union::*;
+pub use sphere::*;
+pub use stretch::*;
+pub use torus::*;
+pub use translate::*;
+pub use union::*;
+pub use xor::*;
+
+use crate::shape::Shape;
+
+/// The descriptors of all shapes, by name.
+pub static ALL: &[&Shape] = &[
+    &BOX,
+    &CAPSULE,
+    &COMPLEMENT,
+    &CONE,
+    &CONVEX_POLYHEDRON,
+    &CONVEX_POLYHEDRON_BOUND,
+    &CYLINDER,
+    &DIFFERENCE,
+    &ELLIPSOID,
+    &ELLIPSOID_BOUND,
+    &INTERSECTION,
+    &OFFSET,
+    &PAINT,
+    &PLANE,
+    &REFLECT,
+    &ROTATE,
+    &ROTATE_EULER,
+    &ROTATE_QUATERNION,
+    &SCALE,
+    &SHEET,
+    &SHELL,
+    &SMOOTH_DIFFERENCE,
+    &SMOOTH_INTERSECTION,
+    &SMOOTH_UNION,
+    &SPHERE,
+    &STRETCH,
+    &TORUS,
+    &TRANSLATE,
+    &UNION,
+    &XOR,
+];

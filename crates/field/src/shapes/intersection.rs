@@ -1,0 +1,42 @@
+//! Intersection: the maximum. Exact inside if the operands are; outside only a bound.
+
+use super::difference::{KEEP_MATERIAL, common};
+use crate::shape_prelude::*;
+
+/// See [`intersection`].
+#[derive(Clone, Copy, Debug)]
+pub struct Intersection;
+
+/// The descriptor of [`intersection`], also reached by `a & b`.
+pub static INTERSECTION: Shape = Shape::combine::<Intersection>();
+
+/// What all the shapes have in common.
+#[track_caller]
+pub fn intersection<F: Into<Field>>(shapes: impl IntoIterator<Item = F>) -> Field {
+    Field::new(&INTERSECTION, [], shapes.into_iter().map(Into::into))
+}
+
+impl Combine for Intersection {
+    const ABOUT: About = About {
+        name: "intersection",
+        summary: "What all the shapes have in common.",
+        params: &[KEEP_MATERIAL],
+        elsewhere: &["and", "intersect", "max"],
+        example: r#"{ "intersection": [ { "box": { "size": 1.4 } }, { "sphere": { "radius": 0.9 } } ] }"#,
+    };
+
+    const HULL: Hull = Hull::Common;
+
+    fn contract(_args: &[f64], a: Contract, b: Contract) -> Result<Contract, String> {
+        Ok(common(a, b))
+    }
+
+    fn combine<S: Scalar>(a: S, b: S, _c: &Constants<'_, S>) -> S {
+        a.max(b)
+    }
+
+    fn share<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
+        let [keep] = c.get();
+        S::select(a.lt(b), -keep + 1.0, a.lift(0.0))
+    }
+}

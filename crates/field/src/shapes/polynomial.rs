@@ -1,0 +1,63 @@
+//! Polynomial blends, shared by the smooth operators.
+//!
+//! With h = max(k - |a - b|, 0) / k the smooth minimum of order n is min(a, b) - k/(2n) h^n, and the share of the larger
+//! operand is h^(n-1) / 2 (Quilez, "smooth minimum", 2013; order n after Csébfalvi). The slope never exceeds those of
+//! the operands, since the shares are between 0 and 1 and make 1.
+
+use crate::shape_prelude::*;
+
+/// How far the blend reaches.
+pub(crate) const K: Param = Param::required(
+    "k",
+    ParamKind::Length,
+    "Visible size: how far from a right-angled edge the blend leaves the face; 0 for none.",
+);
+
+/// The order of the polynomial.
+pub(crate) const ORDER: Param = Param::optional(
+    "order",
+    ParamKind::Choice(&["2", "3"]),
+    &[0.0],
+    "Order of the polynomial: 2 is the common one, 3 is smooth in curvature too.",
+);
+
+/// The most a blend takes off the minimum.
+pub(crate) fn depth(args: &[f64]) -> f64 {
+    args[0] / (2.0 * order(args))
+}
+
+fn order(args: &[f64]) -> f64 {
+    2.0 + args[1]
+}
+
+/// The constants of [`smooth_min`] and [`share`].
+pub(crate) fn prepare(args: &[f64]) -> Vec<f64> {
+    let k = args[0];
+    let inverse = if k > 0.0 { 1.0 / k } else { 0.0 };
+    let cubic = args[1];
+    vec![
+        k,
+        inverse,
+        depth(args) * (1.0 - cubic),
+        depth(args) * cubic,
+        0.5 * (1.0 - cubic),
+        0.5 * cubic,
+    ]
+}
+
+/// The smooth minimum. Without a blend (k = 0) it is the plain one.
+#[inline(always)]
+pub(crate) fn smooth_min<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
+    let [k, inverse, square, cubic, _, _] = c.get();
+    let h = (k - (a - b).abs()).max(a.lift(0.0)) * inverse;
+    a.min(b) - h.square() * (square + cubic * h)
+}
+
+/// The share of `b` in the smooth minimum.
+#[inline(always)]
+pub(crate) fn share<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
+    let [k, inverse, _, _, linear, square] = c.get();
+    let h = (k - (a - b).abs()).max(a.lift(0.0)) * inverse;
+    let farther = h * (linear + square * h);
+    S::select(b.lt(a), -farther + 1.0, farther)
+}

@@ -1,0 +1,64 @@
+//! Which instruction set the batch kernels run on.
+//!
+//! Kernels are instantiated for SSE2, AVX2 and AVX-512 on x86-64 (SSE4.2 would bring nothing over SSE2 here) and for
+//! what the target has elsewhere. All of them compute the same bits.
+
+pub use fearless_simd::Level;
+
+/// The best instruction set of this machine.
+pub fn best() -> Level {
+    Level::new()
+}
+
+/// All instruction sets of this machine that kernels exist for, the best one last.
+pub fn available() -> Vec<Level> {
+    let best = best();
+    #[cfg(target_arch = "x86_64")]
+    let levels = [
+        best.as_sse2().map(Level::Sse2),
+        best.as_avx2().map(Level::Avx2),
+        best.as_avx512().map(Level::Avx512),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    #[cfg(not(target_arch = "x86_64"))]
+    let levels = vec![best];
+    levels
+}
+
+/// Runs `$body` compiled for the instruction set of `$level`, with `$token` as the proof that it is there.
+#[cfg(target_arch = "x86_64")]
+macro_rules! dispatch {
+    ($level:expr, $token:ident => $body:expr) => {{
+        use fearless_simd::Simd;
+        let level: $crate::simd::Level = $level;
+        if let Some($token) = level.as_avx512() {
+            $token.vectorize(
+                #[inline(always)]
+                || $body,
+            )
+        } else if let Some($token) = level.as_avx2() {
+            $token.vectorize(
+                #[inline(always)]
+                || $body,
+            )
+        } else {
+            let $token = level.as_sse2().expect("x86-64 has SSE2");
+            $token.vectorize(
+                #[inline(always)]
+                || $body,
+            )
+        }
+    }};
+}
+
+/// Runs `$body` compiled for the instruction set of `$level`, with `$token` as the proof that it is there.
+#[cfg(not(target_arch = "x86_64"))]
+macro_rules! dispatch {
+    ($level:expr, $token:ident => $body:expr) => {
+        fearless_simd::dispatch!($level, $token => $body)
+    };
+}
+
+pub(crate) use dispatch;
