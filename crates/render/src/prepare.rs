@@ -1,0 +1,379 @@
+//! From a scene to what tracing needs.
+//!
+//! A [`Renderer`] holds what stays the same however large the picture is and wherever the camera stands: compiled
+//! fields, and which objects are marched and which are intersected exactly. A [`Frame`] adds what belongs to one
+//! picture: the programs relative to its origin, the view, the lights as seen from there, and the tolerances.
+
+use crate::light::Lamp;
+use crate::march::Pace;
+use crate::options::Options;
+use crate::view::{CameraError, View, framed};
+use freikugel_field::ray::ExactRay;
+use freikugel_field::simd::{self, Level};
+use freikugel_field::{
+    Aabb, Contract, Diagnostic, Extent, Field, MaterialId, Program, Structure, analyse,
+};
+use freikugel_scene::{Camera, Material, Scene};
+use glam::DVec3;
+use std::fmt;
+
+/// The part of half a ray's share of its pixel that a surface may be missed by. The default precision is coarser than
+/// that at all but the smallest sizes.
+const FOOTPRINT_SHARE: f64 = 1.0 / 16.0;
+
+/// Rounding errors of a field value in single precision, relative to the coordinates: a handful of operations.
+const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
+
+/// What boxes are widened by, relative to their size, so that a surface on their border lies inside.
+const BOX_MARGIN: f64 = 1e-3;
+
+/// The part of the scene's size that ambient occlusion reaches if the scene does not say.
+const OCCLUSION_REACH: f64 = 0.1;
+
+/// Samples of ambient occlusion along the normal.
+pub(crate) const OCCLUSION_SAMPLES: usize = 5;
+
+/// Why a scene can't be rendered.
+#[derive(Clone, Debug)]
+pub enum PrepareError {
+    /// The fields have faults.
+    Fields(Vec<Diagnostic>),
+    /// Nothing is known about the scale of an object's field, so no step through it is safe.
+    Unmarchable {
+        /// Its name.
+        object: String,
+    },
+    /// The camera shows nothing.
+    Camera(CameraError),
+    /// A light can't be used.
+    Light {
+        /// Its place among the lights.
+        index: usize,
+        /// What is wrong, as a sentence.
+        fault: &'static str,
+    },
+    /// A parameter of the tracing is out of its range.
+    Tracing(&'static str),
+}
+
+/// A scene made ready for pictures of any size. See the [crate documentation](crate).
+pub struct Renderer<'s> {
+    pub(crate) scene: &'s Scene,
+    /// The union of the objects that are marched.
+    marched: Option<Structure>,
+    /// What each region of that union looks like.
+    pub(crate) paints: Vec<Paint<'s>>,
+    /// Whether all regions look alike, so that nobody needs to ask for their shares.
+    pub(crate) is_uniform: bool,
+    /// What field values are multiplied with to get safe steps.
+    scale: f64,
+    /// Where the marched objects are.
+    bounds: Extent,
+    /// Objects that rays are intersected with exactly.
+    pub(crate) exact: Vec<Exact<'s>>,
+    /// The union of all objects, if it is not the same as the marched one.
+    everything: Option<Structure>,
+    /// The box around all objects of finite size.
+    extent: Option<Aabb>,
+}
+
+/// What a part of a surface looks like.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Paint<'s> {
+    pub(crate) object: u32,
+    pub(crate) material: &'s Material,
+    /// Whether it has no inside, and therefore two front sides.
+    pub(crate) is_sheet: bool,
+}
+
+/// An object that rays are intersected with exactly.
+pub(crate) struct Exact<'s> {
+    pub(crate) ray: ExactRay,
+    pub(crate) paint: Paint<'s>,
+    structure: Structure,
+}
+
+impl<'s> Renderer<'s> {
+    /// Compiles the fields of a scene.
+    ///
+    /// # Errors
+    /// All faults of the fields, or the first other reason why the scene can't be rendered.
+    pub fn new(scene: &'s Scene) -> Result<Self, PrepareError> {
+        let fields: Vec<Field> = scene.objects.iter().map(|object| object.shape.clone()).collect();
+        let everything = Structure::compile(&fields).map_err(PrepareError::Fields)?;
+        check_tracing(scene)?;
+
+        let mut marched = Vec::new();
+        let mut exact = Vec::new();
+        let mut bounds = Extent::Empty;
+        let mut extent = Extent::Empty;
+        let mut scale = f64::INFINITY;
+        let mut contracts = Vec::new();
+        for (index, object) in scene.objects.iter().enumerate() {
+            let analysis = analyse(&object.shape).0.expect("faults were found when compiling");
+            contracts.push(analysis.contract);
+            if matches!(analysis.extent, Extent::Finite(_)) {
+                extent = hull(extent, analysis.extent);
+            }
+            if let Some(ray) = ExactRay::of(&object.shape) {
+                let structure = Structure::compile(&fields[index..=index]).map_err(PrepareError::Fields)?;
+                let own = structure.regions().first().and_then(|region| region.material);
+                let paint = Paint {
+                    object: index as u32,
+                    material: material(scene, own.or(object.material)),
+                    is_sheet: !analysis.contract.signed,
+                };
+                exact.push(Exact { ray, paint, structure });
+            } else if analysis.extent != Extent::Empty {
+                let safe = safe_scale(&analysis.contract)
+                    .ok_or_else(|| PrepareError::Unmarchable { object: object.name.clone() })?;
+                scale = scale.min(safe);
+                bounds = hull(bounds, analysis.extent);
+                marched.push(index);
+            }
+        }
+
+        let structure = (!marched.is_empty())
+            .then(|| {
+                let fields: Vec<Field> = marched.iter().map(|&index| fields[index].clone()).collect();
+                Structure::compile(&fields).map_err(PrepareError::Fields)
+            })
+            .transpose()?;
+        let paints: Vec<Paint<'s>> = structure
+            .iter()
+            .flat_map(Structure::regions)
+            .map(|region| {
+                let object = marched[region.object];
+                Paint {
+                    object: object as u32,
+                    material: material(scene, region.material.or(scene.objects[object].material)),
+                    is_sheet: !contracts[object].signed,
+                }
+            })
+            .collect();
+        let is_uniform = paints.windows(2).all(|pair| {
+            std::ptr::eq(pair[0].material, pair[1].material) && pair[0].is_sheet == pair[1].is_sheet
+        });
+        let is_all_marched = marched.len() == scene.objects.len();
+        Ok(Self {
+            scene,
+            marched: structure,
+            paints,
+            is_uniform,
+            scale,
+            bounds,
+            exact,
+            everything: (!is_all_marched).then_some(everything),
+            extent: match extent {
+                Extent::Finite(extent) => Some(extent),
+                Extent::Empty | Extent::Unbounded => None,
+            },
+        })
+    }
+
+    /// The box around all objects of finite size, if there are any.
+    pub fn extent(&self) -> Option<Aabb> {
+        self.extent
+    }
+
+    /// The scene's camera, or the one that frames it in a picture of this size.
+    pub fn camera(&self, width: u32, height: u32) -> Camera {
+        self.scene.camera.clone().unwrap_or_else(|| framed(self.extent, width, height))
+    }
+}
+
+/// The largest factor that makes field values safe steps.
+fn safe_scale(contract: &Contract) -> Option<f64> {
+    let by_slope = contract.lipschitz.filter(|&slope| slope > 0.0).map(|slope| 1.0 / slope);
+    if contract.is_safe_step() { Some(by_slope.map_or(1.0, |scale| scale.max(1.0))) } else { by_slope }
+}
+
+fn material(scene: &Scene, id: Option<MaterialId>) -> &Material {
+    static PLAIN: std::sync::LazyLock<Material> = std::sync::LazyLock::new(Material::default);
+    id.and_then(|MaterialId(index)| scene.materials.get(index as usize))
+        .map_or(&*PLAIN, |(_, material)| material)
+}
+
+fn hull(a: Extent, b: Extent) -> Extent {
+    match (a, b) {
+        (Extent::Empty, other) | (other, Extent::Empty) => other,
+        (Extent::Finite(a), Extent::Finite(b)) => Extent::Finite(a.hull(b)),
+        (Extent::Unbounded, _) | (_, Extent::Unbounded) => Extent::Unbounded,
+    }
+}
+
+fn check_tracing(scene: &Scene) -> Result<(), PrepareError> {
+    let tracing = &scene.tracing;
+    let fault = if !(tracing.max_distance > 0.0 && tracing.max_distance.is_finite()) {
+        "the maximum distance must be above 0"
+    } else if !(0.0..1.0).contains(&tracing.precision) {
+        "the precision must be at least 0 and below 1"
+    } else if tracing.max_steps == 0 {
+        "there must be at least one step"
+    } else if !(tracing.step_factor > 0.0 && tracing.step_factor <= 1.0) {
+        "the step factor must be above 0 and at most 1"
+    } else {
+        return Ok(());
+    };
+    Err(PrepareError::Tracing(fault))
+}
+
+/// What belongs to one picture.
+pub(crate) struct Frame<'r> {
+    pub(crate) renderer: &'r Renderer<'r>,
+    pub(crate) view: View,
+    pub(crate) level: Level,
+    /// What single-precision coordinates are relative to.
+    pub(crate) origin: DVec3,
+    pub(crate) marched: Option<Program>,
+    pub(crate) everything: Option<Program>,
+    /// One for each of the renderer's exact objects.
+    pub(crate) exact: Vec<Program>,
+    pub(crate) lamps: Vec<Lamp>,
+    pub(crate) pace: Pace,
+    pub(crate) tolerance: Tolerance,
+    /// Where to look for marched objects; everywhere if they have no bounds.
+    pub(crate) bounds: Option<Aabb>,
+    pub(crate) occlusion: Option<OcclusionSamples>,
+    /// The width of the cone that a ray stands for: at the camera, and what it gains per unit of distance.
+    pub(crate) footprint: [f32; 2],
+}
+
+/// How far from a surface a ray may stop, in world units.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tolerance {
+    /// Everywhere.
+    fixed: f64,
+    /// Per unit of distance from the camera.
+    growth: f64,
+}
+
+/// Ambient occlusion, ready to use.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OcclusionSamples {
+    /// Distances of the samples from the surface.
+    pub(crate) heights: [f32; OCCLUSION_SAMPLES],
+    /// What the samples' shortfalls weigh. If all of them touch other surfaces, the weighted sum is the strength.
+    pub(crate) weights: [f32; OCCLUSION_SAMPLES],
+}
+
+impl<'r> Frame<'r> {
+    pub(crate) fn new(renderer: &'r Renderer<'_>, options: &Options) -> Result<Self, PrepareError> {
+        let scene = renderer.scene;
+        let camera = renderer.camera(options.width, options.height);
+        let view = View::new(&camera, options.width, options.height).map_err(PrepareError::Camera)?;
+        // Where single precision is finest should be what the camera sees from nearest by.
+        let origin = match renderer.extent {
+            Some(extent) => camera.eye.clamp(extent.min, extent.max),
+            None => camera.target,
+        };
+        let program = |structure: &Structure| structure.program(origin);
+        let everything = renderer.everything.as_ref().map(program);
+        let marched = renderer.marched.as_ref().map(program);
+        let clearance = |place: DVec3| {
+            everything.as_ref().or(marched.as_ref()).map_or(f64::INFINITY, |field| field.value(place))
+        };
+        let lamps = scene
+            .lights
+            .iter()
+            .enumerate()
+            .map(|(index, light)| {
+                Lamp::new(light, origin, clearance)
+                    .map_err(|fault| PrepareError::Light { index, fault })
+            })
+            .collect::<Result<_, _>>()?;
+
+        let size = match renderer.extent {
+            Some(extent) => extent.size().max_element(),
+            None => camera.eye.distance(camera.target),
+        };
+        // Rays of a pixel share it among them.
+        let (fixed, growth) = view.footprint();
+        let spread = f64::from(options.samples).sqrt();
+        let (fixed, growth) = (fixed / spread, growth / spread);
+        let tolerance = Tolerance {
+            fixed: fixed / 2.0 * FOOTPRINT_SHARE,
+            growth: (growth / 2.0 * FOOTPRINT_SHARE).max(scene.tracing.precision),
+        };
+        Ok(Self {
+            renderer,
+            view,
+            level: options.level.unwrap_or_else(simd::best),
+            origin,
+            exact: renderer.exact.iter().map(|exact| program(&exact.structure)).collect(),
+            lamps,
+            pace: Pace {
+                scale: renderer.scale.min(f64::from(f32::MAX)) as f32,
+                step_factor: scene.tracing.step_factor as f32,
+                max_steps: scene.tracing.max_steps,
+            },
+            tolerance,
+            bounds: match renderer.bounds {
+                Extent::Finite(bounds) => {
+                    let far = bounds.min.abs().max(bounds.max.abs()).max_element();
+                    let margin = BOX_MARGIN * bounds.size().max_element() + ROUNDING * far;
+                    Some(Aabb { min: bounds.min - margin, max: bounds.max + margin })
+                }
+                Extent::Empty | Extent::Unbounded => None,
+            },
+            occlusion: scene.occlusion.as_ref().map(|occlusion| {
+                let reach = occlusion.reach.unwrap_or(size * OCCLUSION_REACH);
+                OcclusionSamples::new(f64::from(occlusion.strength), reach)
+            }),
+            footprint: [fixed as f32, growth as f32],
+            everything,
+            marched,
+        })
+    }
+}
+
+impl Tolerance {
+    /// How far from the surface a camera ray may stop that has come from the camera to a point `t` units away and
+    /// `offset` from the origin: at the point, and what that gains per unit of distance further on.
+    pub(crate) fn at(&self, t: f64, offset: f64) -> [f64; 2] {
+        [self.fixed + self.growth * t + ROUNDING * offset, self.growth + ROUNDING]
+    }
+}
+
+/// The rounding error of the field at a point this far from the origin.
+pub(crate) fn rounding(offset: f32) -> f32 {
+    ROUNDING as f32 * offset
+}
+
+impl OcclusionSamples {
+    /// Equally spaced heights up to `reach`, each weighing half as much as the one below (K 6.2).
+    fn new(strength: f64, reach: f64) -> Self {
+        let height = |sample: usize| reach * (sample + 1) as f64 / OCCLUSION_SAMPLES as f64;
+        let weight = |sample: usize| 0.5f64.powi(sample as i32 + 1);
+        let all: f64 = (0..OCCLUSION_SAMPLES).map(|sample| height(sample) * weight(sample)).sum();
+        let strength = if all > 0.0 { strength / all } else { 0.0 };
+        Self {
+            heights: std::array::from_fn(|sample| height(sample) as f32),
+            weights: std::array::from_fn(|sample| (weight(sample) * strength) as f32),
+        }
+    }
+}
+
+impl fmt::Display for PrepareError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fields(diagnostics) => {
+                for (index, diagnostic) in diagnostics.iter().enumerate() {
+                    if index > 0 {
+                        f.write_str("\n")?;
+                    }
+                    diagnostic.fmt(f)?;
+                }
+                Ok(())
+            }
+            Self::Unmarchable { object } => {
+                write!(f, "the field of `{object}` has no known scale, so no step along a ray is safe")
+            }
+            Self::Camera(fault) => fault.fmt(f),
+            Self::Light { index, fault } => write!(f, "light {index}: {fault}"),
+            Self::Tracing(fault) => f.write_str(fault),
+        }
+    }
+}
+
+impl std::error::Error for PrepareError {}

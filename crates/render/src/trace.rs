@@ -1,0 +1,417 @@
+//! From camera rays to hits: exact intersections, marching, normals, materials.
+//!
+//! A [`Tracer`] is the working memory of one thread. It takes rays in waves; all buffers keep their size from wave to
+//! wave.
+
+use crate::march::{End, Fate, March, Start};
+use crate::material::{Footprint, Surface};
+use crate::prepare::{Frame, rounding};
+use crate::stats::Stats;
+use crate::vector::{Triple, add_scaled, dot, length, scaled};
+use crate::view::{Ray, clip};
+use freikugel_field::{Evaluator, Points, Program, Shares};
+use glam::DVec3;
+
+/// A hit is a false one if by its gradient the surface is still this many tolerances away.
+const FALSE_HIT: f32 = 2.0;
+
+/// The least gradient a surface is expected to have; where the field is flatter, hits are taken as they are.
+const FLATTEST: f32 = 1e-3;
+
+/// An unresolved ray shows the surface it is creeping along if that is nearer than this many tolerances, else what
+/// lies behind.
+const CREEPING: f32 = 64.0;
+
+/// What a camera ray met.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hit {
+    /// The ray's place in its wave.
+    pub(crate) ray: u32,
+    /// The object's place in the scene; the one with the largest share.
+    pub(crate) object: u32,
+    /// Relative to the frame's origin.
+    pub(crate) position: Triple,
+    pub(crate) normal: Triple,
+    /// The unit vector against the ray.
+    pub(crate) viewer: Triple,
+    /// From the ray's origin.
+    pub(crate) distance: f64,
+    /// How far the position may be from the surface.
+    pub(crate) uncertainty: f32,
+    /// What errors of position are tolerated there, in this and in its shadow.
+    pub(crate) tolerance: f32,
+    /// How fast the marched field grows away from the surface, if it is one of its own.
+    pub(crate) gradient: f32,
+    pub(crate) surface: Surface,
+}
+
+/// One camera ray of a wave.
+struct CameraRay {
+    ray: Ray,
+    /// The nearest exact object and its distance.
+    exact: Option<(usize, f64)>,
+    /// How far from the ray's origin its march begins.
+    begin: f64,
+    start: Start,
+    steps: u32,
+}
+
+/// Where a march ended on a surface.
+#[derive(Clone, Copy)]
+struct Landing {
+    ray: u32,
+    t: f32,
+    position: Triple,
+    gradient: Triple,
+}
+
+/// The working memory of one thread.
+pub(crate) struct Tracer<'f> {
+    pub(crate) frame: &'f Frame<'f>,
+    pub(crate) marched: Option<Evaluator<'f>>,
+    pub(crate) everything: Option<Evaluator<'f>>,
+    exact: Vec<Evaluator<'f>>,
+    pub(crate) march: March,
+    pub(crate) ends: Vec<End>,
+    pub(crate) cloud: Cloud,
+    shares: Shares,
+    rays: Vec<CameraRay>,
+    landings: Vec<Landing>,
+    /// What the rays of the last wave met, in no particular order; at most one for each ray.
+    pub(crate) hits: Vec<Hit>,
+    /// Rays of the last wave that ran out of steps.
+    pub(crate) unresolved: Vec<u32>,
+    pub(crate) stats: Stats,
+}
+
+/// Points with room for what is computed at them.
+#[derive(Default)]
+pub(crate) struct Cloud {
+    point: [Vec<f32>; 3],
+    pub(crate) value: Vec<f32>,
+    gradient: [Vec<f32>; 3],
+}
+
+impl<'f> Tracer<'f> {
+    pub(crate) fn new(frame: &'f Frame<'f>) -> Self {
+        let evaluator = |program: &'f Program| Evaluator::with_level(program, frame.level);
+        Self {
+            frame,
+            marched: frame.marched.as_ref().map(evaluator),
+            everything: frame.everything.as_ref().map(evaluator),
+            exact: frame.exact.iter().map(evaluator).collect(),
+            march: March::default(),
+            ends: Vec::new(),
+            cloud: Cloud::default(),
+            shares: Shares::default(),
+            rays: Vec::new(),
+            landings: Vec::new(),
+            hits: Vec::new(),
+            unresolved: Vec::new(),
+            stats: Stats::default(),
+        }
+    }
+
+    /// The rays of the wave, as cast, and the steps they took.
+    pub(crate) fn rays(&self) -> impl ExactSizeIterator<Item = (&Ray, u32)> {
+        self.rays.iter().map(|ray| (&ray.ray, ray.steps))
+    }
+
+    /// A ray of the wave, as cast.
+    pub(crate) fn ray(&self, index: u32) -> &Ray {
+        &self.rays[index as usize].ray
+    }
+
+    /// Forgets the last wave.
+    pub(crate) fn clear(&mut self) {
+        self.rays.clear();
+        self.hits.clear();
+        self.unresolved.clear();
+    }
+
+    /// Adds a camera ray to the wave.
+    pub(crate) fn cast(&mut self, ray: Ray) {
+        let frame = self.frame;
+        let id = self.rays.len() as u32;
+        let exact = frame
+            .renderer
+            .exact
+            .iter()
+            .enumerate()
+            .filter_map(|(index, exact)| Some((index, exact.ray.hit(ray.origin, ray.direction)?)))
+            .filter(|(_, t)| t.is_finite())
+            .min_by(|(_, a), (_, b)| a.total_cmp(b));
+
+        let limit = frame.renderer.scene.tracing.max_distance;
+        let span = match &frame.bounds {
+            _ if self.marched.is_none() => None,
+            Some(bounds) => clip(bounds, &ray),
+            None => Some((0.0, limit)),
+        };
+        let limit = exact.map_or(limit, |(_, t)| t.min(limit));
+        // The march begins at the box's wall, computed in double precision, so that `t` stays small.
+        let (begin, end) = match span {
+            Some((near, far)) if near < limit => (near, far.min(limit) - near),
+            _ => (0.0, 0.0),
+        };
+        let origin = (ray.origin + ray.direction * begin - frame.origin).as_vec3();
+        let [base, slope] = frame.tolerance.at(begin, f64::from(origin.length()));
+        let in_values = 1.0 / f64::from(frame.pace.scale);
+        let start = Start {
+            id,
+            origin: origin.to_array(),
+            direction: ray.direction.as_vec3().to_array(),
+            span: [0.0, end as f32],
+            tolerance: [(base * in_values) as f32, (slope * in_values) as f32],
+            steps: 0,
+            sharpness: 1.0,
+        };
+        if start.span[1] > 0.0 {
+            self.march.push(&start);
+        }
+        self.rays.push(CameraRay { ray, exact, begin, start, steps: 0 });
+        self.stats.rays.camera += 1;
+    }
+
+    /// Traces all rays of the wave and collects what they hit. Materials and objects are found where `surfaces` asks
+    /// for them.
+    pub(crate) fn trace(&mut self) {
+        self.land();
+        self.collect_marched();
+        self.collect_exact();
+        self.stats.hits += self.hits.len() as u64;
+    }
+
+    /// Marches until each ray has landed, passed, or run out of steps.
+    ///
+    /// Where a field's slope is below its Lipschitz constant, its values fall below the tolerance before the surface is
+    /// as near as that. The gradient tells: such rays go on with a tolerance that fits the slope they saw.
+    fn land(&mut self) {
+        self.landings.clear();
+        let Some(field) = &mut self.marched else { return };
+        let pace = self.frame.pace;
+        loop {
+            self.ends.clear();
+            self.stats.evaluations += self.march.hard(field, pace, &mut self.ends);
+            self.cloud.clear();
+            self.ends.retain(|end| {
+                let ray = &mut self.rays[end.id as usize];
+                ray.steps = end.steps;
+                let lands = match end.fate {
+                    Fate::Hit => true,
+                    Fate::Passed => false,
+                    Fate::Exhausted => {
+                        self.unresolved.push(end.id);
+                        let [base, slope] = ray.start.tolerance;
+                        end.value < CREEPING * (base + slope * end.t)
+                    }
+                };
+                if lands {
+                    self.cloud.push(add_scaled(ray.start.origin, end.t, ray.start.direction));
+                }
+                lands
+            });
+            self.stats.evaluations += self.cloud.gradients(field);
+            for (index, end) in self.ends.iter().enumerate() {
+                let start = &mut self.rays[end.id as usize].start;
+                let gradient = self.cloud.gradient_at(index);
+                let slope = length(gradient);
+                let in_values = slope.max(FLATTEST) * pace.scale;
+                let limit = start.tolerance[0] + start.tolerance[1] * end.t;
+                if end.fate == Fate::Hit && end.value > FALSE_HIT * limit * in_values {
+                    start.tolerance = start.tolerance.map(|number| number * in_values);
+                    self.march.push(&Start { span: [end.t, start.span[1]], steps: end.steps, ..*start });
+                } else {
+                    if end.t == 0.0 && end.value < -limit {
+                        self.stats.inside += 1;
+                    }
+                    let position = self.cloud.point_at(index);
+                    self.landings.push(Landing { ray: end.id, t: end.t, position, gradient });
+                }
+            }
+            if self.march.is_empty() {
+                break;
+            }
+        }
+        self.stats.steps += self.rays.iter().map(|ray| u64::from(ray.steps)).sum::<u64>();
+        self.stats.unresolved.camera += self.unresolved.len() as u64;
+    }
+
+    fn collect_marched(&mut self) {
+        let frame = self.frame;
+        let paints = &frame.renderer.paints;
+        if self.landings.is_empty() {
+            return;
+        }
+        let asks_for_shares = !frame.renderer.is_uniform;
+        if asks_for_shares {
+            self.cloud.clear();
+            for landing in &self.landings {
+                self.cloud.push(landing.position);
+            }
+            let field = self.marched.as_mut().expect("something was marched");
+            self.stats.evaluations += self.cloud.shares(field, &mut self.shares);
+        }
+        for (index, landing) in self.landings.iter().enumerate() {
+            let CameraRay { ray, begin, start, .. } = &self.rays[landing.ray as usize];
+            let share = |region: usize| self.shares.of(region)[index];
+            let main = match asks_for_shares {
+                true => (1..paints.len()).fold(0, |best, region| {
+                    if share(region) > share(best) { region } else { best }
+                }),
+                false => 0,
+            };
+            let viewer = start.direction.map(|x| -x);
+            let slope = length(landing.gradient);
+            let mut normal = scaled(landing.gradient, 1.0 / slope);
+            if !normal.iter().all(|x| x.is_finite()) {
+                normal = viewer;
+            }
+            if paints[main].is_sheet && dot(normal, viewer) < 0.0 {
+                normal = normal.map(|x| -x);
+            }
+            let distance = begin + f64::from(landing.t);
+            let offset = length(landing.position);
+            let uncertainty = frame.tolerance.at(distance, f64::from(offset))[0] as f32;
+            let footprint = Footprint { width: frame.width_at(distance), normal, viewer, uncertainty };
+            let point = frame.origin + DVec3::from(landing.position.map(f64::from));
+            let mut surface = Surface::of(paints[main].material, point, &footprint);
+            if asks_for_shares {
+                let mut total = share(main);
+                for region in (0..paints.len()).filter(|&region| region != main) {
+                    let share = share(region);
+                    if share > 0.0 {
+                        total += share;
+                        let other = Surface::of(paints[region].material, point, &footprint);
+                        surface.mix(&other, share / total);
+                    }
+                }
+            }
+            self.hits.push(Hit {
+                ray: landing.ray,
+                object: paints[main].object,
+                position: landing.position,
+                normal,
+                viewer,
+                distance,
+                uncertainty,
+                tolerance: uncertainty,
+                gradient: slope.clamp(FLATTEST, 1.0),
+                surface,
+            });
+            debug_assert!(ray.direction.is_finite());
+        }
+    }
+
+    /// Adds the exact objects that rays meet which landed on nothing.
+    fn collect_exact(&mut self) {
+        let frame = self.frame;
+        for landing in &self.landings {
+            self.rays[landing.ray as usize].exact = None;
+        }
+        for (index, evaluator) in self.exact.iter_mut().enumerate() {
+            let paint = &frame.renderer.exact[index].paint;
+            self.cloud.clear();
+            let first = self.hits.len();
+            for (id, CameraRay { ray, exact, start, .. }) in self.rays.iter().enumerate() {
+                let Some((_, distance)) = exact.filter(|(object, _)| *object == index) else { continue };
+                let point = ray.origin + ray.direction * distance;
+                let position = (point - frame.origin).as_vec3().to_array();
+                self.cloud.push(position);
+                let offset = length(position);
+                self.hits.push(Hit {
+                    ray: id as u32,
+                    object: paint.object,
+                    position,
+                    normal: [0.0; 3],
+                    viewer: start.direction.map(|x| -x),
+                    distance,
+                    // Of the two, the distance is the one that never vanishes.
+                    uncertainty: rounding(offset.max(distance as f32)),
+                    tolerance: frame.tolerance.at(distance, offset.into())[0] as f32,
+                    gradient: 1.0 / frame.pace.scale,
+                    surface: Surface::default(),
+                });
+            }
+            self.stats.evaluations += self.cloud.gradients(evaluator);
+            for (place, hit) in self.hits[first..].iter_mut().enumerate() {
+                let gradient = self.cloud.gradient_at(place);
+                let normal = scaled(gradient, 1.0 / length(gradient));
+                let is_seen_from_behind = paint.is_sheet && dot(normal, hit.viewer) < 0.0;
+                hit.normal = if !normal.iter().all(|x| x.is_finite()) {
+                    hit.viewer
+                } else if is_seen_from_behind {
+                    normal.map(|x| -x)
+                } else {
+                    normal
+                };
+                let footprint = Footprint {
+                    width: frame.width_at(hit.distance),
+                    normal: hit.normal,
+                    viewer: hit.viewer,
+                    uncertainty: hit.uncertainty,
+                };
+                let ray = &self.rays[hit.ray as usize].ray;
+                let point = ray.origin + ray.direction * hit.distance;
+                hit.surface = Surface::of(paint.material, point, &footprint);
+            }
+        }
+    }
+}
+
+impl Frame<'_> {
+    /// The width of the cone around a ray at a distance from the camera.
+    fn width_at(&self, distance: f64) -> f32 {
+        let [fixed, growth] = self.footprint;
+        fixed + growth * distance as f32
+    }
+}
+
+impl Cloud {
+    pub(crate) fn clear(&mut self) {
+        for numbers in &mut self.point {
+            numbers.clear();
+        }
+    }
+
+    pub(crate) fn push(&mut self, point: Triple) {
+        for (numbers, number) in self.point.iter_mut().zip(point) {
+            numbers.push(number);
+        }
+    }
+
+    fn point_at(&self, index: usize) -> Triple {
+        [self.point[0][index], self.point[1][index], self.point[2][index]]
+    }
+
+    fn gradient_at(&self, index: usize) -> Triple {
+        [self.gradient[0][index], self.gradient[1][index], self.gradient[2][index]]
+    }
+
+    fn points(point: &[Vec<f32>; 3]) -> Points<'_> {
+        Points { x: &point[0], y: &point[1], z: &point[2] }
+    }
+
+    /// Computes the field at the points and returns how many there are.
+    pub(crate) fn values(&mut self, field: &mut Evaluator<'_>) -> u64 {
+        self.value.resize(self.point[0].len(), 0.0);
+        field.values(Self::points(&self.point), &mut self.value);
+        self.value.len() as u64
+    }
+
+    fn gradients(&mut self, field: &mut Evaluator<'_>) -> u64 {
+        let count = self.point[0].len();
+        self.value.resize(count, 0.0);
+        for numbers in &mut self.gradient {
+            numbers.resize(count, 0.0);
+        }
+        let gradient = self.gradient.each_mut().map(Vec::as_mut_slice);
+        field.gradients(Self::points(&self.point), &mut self.value, gradient);
+        count as u64
+    }
+
+    fn shares(&mut self, field: &mut Evaluator<'_>, shares: &mut Shares) -> u64 {
+        field.shares(Self::points(&self.point), shares);
+        self.point[0].len() as u64
+    }
+}
