@@ -3,10 +3,10 @@
 use crate::vector::{Triple, dot, length, scaled};
 use freikugel_scene::{Falloff, Light, Rgb, Shadow};
 use glam::DVec3;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
-/// The apparent radius of the sun as seen from the earth, in radians: what the penumbra of a sun takes that names none.
-const SUN_RADIUS: f64 = 0.004_654;
+/// The apparent diameter of the sun as seen from the earth, in radians: that of a sun with a penumbra that names none.
+const SUN_DIAMETER: f64 = 0.009_31;
 
 /// The shortest distance to a light that its intensity is divided by; no picture shows a point closer to one.
 const NEAREST: f32 = 1e-6;
@@ -122,10 +122,10 @@ impl Lamp {
                 inside if inside <= 0.0 => Dimming::Hard,
                 free => Dimming::Clearance(free as f32),
             },
-            (Shadow::Clearance { angle }, None) => match angle.unwrap_or(SUN_RADIUS) {
+            (Shadow::Clearance { angle }, None) => match angle.unwrap_or(SUN_DIAMETER) {
                 angle if angle <= 0.0 => Dimming::Hard,
-                angle if angle < FRAC_PI_2 => Dimming::Sharpness((1.0 / angle.tan()) as f32),
-                _ => return Err("the apparent radius of a sun must be below 90 degrees"),
+                angle if angle <= PI => Dimming::Sharpness((1.0 / (angle / 2.0).tan()) as f32),
+                _ => return Err("a sun must not be wider than 180 degrees"),
             },
         };
         Ok(Self { emitter, power: scaled(color, intensity), dimming })
@@ -234,7 +234,7 @@ mod tests {
         assert_eq!(sun(Shadow::Hardness(8.0)), Dimming::Sharpness(8.0));
         assert_eq!(sun(Shadow::Hardness(f32::INFINITY)), Dimming::Hard);
         assert_eq!(point(Shadow::Clearance { angle: None }), Dimming::Clearance(0.25));
-        let Dimming::Sharpness(sharpness) = sun(Shadow::Clearance { angle: Some(PI / 4.0) }) else {
+        let Dimming::Sharpness(sharpness) = sun(Shadow::Clearance { angle: Some(PI / 2.0) }) else {
             panic!("a sun's clearance is an angle")
         };
         assert!((sharpness - 1.0).abs() < 1e-6);

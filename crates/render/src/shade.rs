@@ -3,7 +3,7 @@
 //! Shadow rays go from the surface towards the light, in waves like camera rays. Soft shadows come in two forms
 //! that differ in one number only: the factor is the least of `sharpness * clearance / distance` along the ray, from
 //! 0 at a hit to 1, where the sharpness is a light's hardness, or the distance to the light over the light's own
-//! clearance (K 6.1), or for a sun the cotangent of its apparent radius.
+//! clearance (K 6.1), or for a sun the cotangent of half its apparent diameter.
 //!
 //! Ambient occlusion compares the field at five points along the normal with what it would be over an open plane
 //! (Evans 2006; K 6.2).

@@ -127,7 +127,7 @@ fn a_plane_ends_at_the_horizon_and_nowhere_before() {
             background: Background::Solid([0.0, 0.0, 1.0]),
             ..dark()
         };
-        scene.lights.push(Light::Sun(Sun::default()));
+        scene.lights.push(Light::Sun(Sun { direction: DVec3::Z, ..Sun::default() }));
         balls.add_to(&mut scene);
         let image = compare(&scene, &balls, (20, 400), NEAR, 0.0);
         assert_eq!(image.pixel(10, 199), [0.0, 0.0, 1.0]);

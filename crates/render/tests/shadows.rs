@@ -112,10 +112,10 @@ fn clearance_of_a_lamp() {
 }
 
 #[test]
-fn clearance_of_a_sun_is_its_apparent_radius() {
+fn clearance_of_a_sun_is_its_apparent_size() {
     let direction = DVec3::new(-1.0, 0.0, 1.0).normalize();
     let angle = 5f64.to_radians();
-    let shadow = Shadow::Clearance { angle: Some(angle) };
+    let shadow = Shadow::Clearance { angle: Some(2.0 * angle) };
     compare_ground(Light::Sun(Sun { direction, shadow, ..Sun::default() }), |point| {
         (direction.z, factor(point, direction, 12.0, 1.0 / angle.tan()))
     });
@@ -194,7 +194,7 @@ fn occlusion_is_the_sum_of_its_five_samples() {
                 add(scene, plane([0.0, 0.0, 1.0]), chalk());
                 add(scene, plane([-1.0, 0.0, 0.0]).offset_by(-0.02), chalk());
             },
-            occlusion,
+            occlusion.clone(),
         );
         let marched = occluded(
             |scene| {
