@@ -58,7 +58,7 @@ fn compare_ground(light: Light, expected: impl Fn(DVec3) -> (f64, f64)) {
             let Some(point) = ground_at(x, y) else { continue };
             let (light, factor) = expected(point);
             let value = f64::from(rendered.image.pixel(x, y)[0]) / light;
-            assert!(value >= 0.0 && value <= 1.0 + 1e-4, "({x}, {y}): {value}");
+            assert!((0.0..=1.0 + 1e-4).contains(&value), "({x}, {y}): {value}");
             assert!(
                 (value - factor).abs() <= MISSED * factor + 4e-3,
                 "({x}, {y}): {value} instead of {factor}",

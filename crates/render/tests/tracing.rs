@@ -111,7 +111,7 @@ fn a_flat_field_makes_no_false_hits() {
     for row in 0..121 {
         let y = 15.0 - (f64::from(row) + 0.5) * 6.0 / 121.0;
         let is_hit = rendered.image.pixel(2, row)[0] > 0.0;
-        if y < 9.9 || y > 10.2 {
+        if !(9.9..=10.2).contains(&y) {
             assert_eq!(is_hit, y < 10.0, "at {y}");
         }
     }
