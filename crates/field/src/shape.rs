@@ -202,7 +202,7 @@ pub trait Primitive: 'static {
     /// inside, as a distance along it. Only shapes that have one, and that profit, name it.
     const RAY: Option<RayFn> = None;
 
-    /// The formula.
+    /// The formula. Write `#[inline(always)]` before it: a formula that is not inlined loses the instruction set.
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S;
 }
 
@@ -236,7 +236,7 @@ pub trait Combine: 'static {
         (level, level)
     }
 
-    /// The formula.
+    /// The formula. Write `#[inline(always)]` before it: a formula that is not inlined loses the instruction set.
     fn combine<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S;
 
     /// The share of `b` in the result's material, in `[0, 1]`: the size of the partial derivative of
@@ -293,7 +293,7 @@ pub trait Modify: 'static {
     /// The level of the child whose inside covers that of the result at `level`; `None` if none does.
     fn level(args: &[f64], level: f64) -> Option<f64>;
 
-    /// The formula.
+    /// The formula. Write `#[inline(always)]` before it: a formula that is not inlined loses the instruction set.
     fn modify<S: Scalar>(value: S, c: &Constants<'_, S>) -> S;
 }
 

@@ -66,6 +66,7 @@ impl Primitive for Cuboid {
         core.dot(direction.abs()) + (args[3] + level) * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [x, y, z, round] = c.get();
         let q = p.abs() - vec3(x, y, z);

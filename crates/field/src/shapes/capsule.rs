@@ -56,6 +56,7 @@ impl Primitive for Capsule {
         direction.dot(from).max(direction.dot(to)) + (args[6] + level) * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [ax, ay, az, bx, by, bz, inverse, radius] = c.get();
         segment(p, vec3(ax, ay, az), vec3(bx, by, bz), inverse) - radius

@@ -44,6 +44,7 @@ impl Modify for Complement {
         None
     }
 
+    #[inline(always)]
     fn modify<S: Scalar>(value: S, _c: &Constants<'_, S>) -> S {
         -value
     }

@@ -82,6 +82,7 @@ impl Primitive for Cone {
         (top * across + rise).max(bottom * across - rise) + level * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         // (nr, nz) is the outward normal of the slanted side, which starts at the lower rim.
         let [bottom, top, half_height, nr, nz, inverse_slant] = c.get();

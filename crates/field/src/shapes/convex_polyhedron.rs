@@ -183,6 +183,7 @@ impl Primitive for ConvexPolyhedron {
             + level * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let planes = plane_count(c.count());
         let mut inside = height(p, c, 0);

@@ -63,6 +63,7 @@ impl Primitive for ConvexPolyhedronBound {
             .min(along_a_plane)
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let mut highest = height(p, c, 0);
         for i in 1..c.count() / 4 {

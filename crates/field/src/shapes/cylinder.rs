@@ -79,6 +79,7 @@ impl Primitive for Cylinder {
             + (round + level) * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [radius, half_height, round] = c.get();
         let side = S::length2(p.x, p.y) - radius;

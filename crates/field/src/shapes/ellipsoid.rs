@@ -82,6 +82,7 @@ impl Primitive for Ellipsoid {
         (DVec3::from_slice(args) * direction).length() + level * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [ax, ay, az, ex, ey, ez, smallest_squared, off_plane] = c.get();
         let (x, y, z) = (

@@ -69,6 +69,7 @@ impl Modify for Offsetting {
         Some(level + args[0])
     }
 
+    #[inline(always)]
     fn modify<S: Scalar>(value: S, c: &Constants<'_, S>) -> S {
         let [by] = c.get();
         value - by

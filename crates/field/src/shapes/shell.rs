@@ -61,6 +61,7 @@ impl Modify for Shell {
         Some(level + args[0] / 2.0)
     }
 
+    #[inline(always)]
     fn modify<S: Scalar>(value: S, c: &Constants<'_, S>) -> S {
         let [half] = c.get();
         value.abs() - half

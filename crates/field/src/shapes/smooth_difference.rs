@@ -48,10 +48,12 @@ impl Combine for SmoothDifference {
         Ok(common(a, subtrahend(b)?).at_most_bound())
     }
 
+    #[inline(always)]
     fn combine<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
         -polynomial::smooth_min(-a, b, c)
     }
 
+    #[inline(always)]
     fn share<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
         polynomial::share(-a, b, c) * (-c.at(KEEP) + 1.0)
     }

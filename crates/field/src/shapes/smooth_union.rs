@@ -51,10 +51,12 @@ impl Combine for SmoothUnion {
         (level, level)
     }
 
+    #[inline(always)]
     fn combine<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
         polynomial::smooth_min(a, b, c)
     }
 
+    #[inline(always)]
     fn share<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
         polynomial::share(a, b, c)
     }

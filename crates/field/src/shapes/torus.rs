@@ -48,6 +48,7 @@ impl Primitive for Torus {
         args[0] * direction.x.hypot(direction.y) + (args[1] + level) * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [major, minor] = c.get();
         S::length2(S::length2(p.x, p.y) - major, p.z) - minor
