@@ -18,9 +18,7 @@ fn csg20() -> Field {
     let body = body | cylinder(0.1, 1.0);
     let body = smooth_union(0.05, [body, sphere(0.14).at([0.0, 0.0, 0.55])]);
     body | cuboid([1.4, 1.4, 0.14]).round(0.02).at([0.0, 0.0, -0.45])
-        | torus(0.6, 0.05)
-            .at([0.0, 0.0, -0.35])
-            .rotate([0.0, 0.0, 1.0], 40.0)
+        | torus(0.6, 0.05).at([0.0, 0.0, -0.35]).rotate([0.0, 0.0, 1.0], 40.0)
 }
 
 fn many(count: usize) -> Field {
@@ -57,26 +55,15 @@ fn measure(name: &str, program: &Program, work: &mut dyn FnMut(&mut Evaluator<'_
             work(&mut evaluator);
             best = best.min(start.elapsed().as_secs_f64());
         }
-        println!(
-            "{name:20} {level:?}: {:8.1} M points/s",
-            points as f64 / best / 1e6
-        );
+        println!("{name:20} {level:?}: {:8.1} M points/s", points as f64 / best / 1e6);
     }
 }
 
 fn main() {
     const POINTS: usize = 1 << 18;
-    let coordinate = |k: f32| {
-        (0..POINTS)
-            .map(|i| (i as f32 * k).sin())
-            .collect::<Vec<f32>>()
-    };
+    let coordinate = |k: f32| (0..POINTS).map(|i| (i as f32 * k).sin()).collect::<Vec<f32>>();
     let (x, y, z) = (coordinate(0.37), coordinate(0.91), coordinate(1.73));
-    let points = Points {
-        x: &x,
-        y: &y,
-        z: &z,
-    };
+    let points = Points { x: &x, y: &y, z: &z };
     let mut values = vec![0.0; POINTS];
     let mut gradient = [vec![0.0; POINTS], vec![0.0; POINTS], vec![0.0; POINTS]];
     for (name, field) in [("csg20", csg20()), ("many256", many(256))] {
@@ -93,11 +80,6 @@ fn main() {
         let mut gradients = |evaluator: &mut Evaluator<'_>| {
             evaluator.gradients(points, &mut values, [gx, gy, gz]);
         };
-        measure(
-            &format!("{name} gradients"),
-            &program,
-            &mut gradients,
-            POINTS,
-        );
+        measure(&format!("{name} gradients"), &program, &mut gradients, POINTS);
     }
 }

@@ -1,6 +1,6 @@
 //! The number type a formula is generic over.
 //!
-//! A formula is written once, as a function over [`Scalar`], and instantiated with plain `f64` ([`real`]), SIMD lanes
+//! A formula is written once, as a function over [`Scalar`], and instantiated with plain `f64`, SIMD lanes
 //! ([`Lanes`]), outward-rounded intervals ([`Interval`]), dual numbers ([`Dual`], nested for second derivatives) and an
 //! expression builder ([`crate::expr::Expr`]) that yields shader text.
 //!

@@ -40,14 +40,7 @@ fn lanes_agree_with_f64_and_bit_for_bit_with_each_other() {
         let mut first: Option<Vec<u32>> = None;
         for level in simd::available() {
             let mut values = vec![0.0; points.len()];
-            Evaluator::with_level(&program, level).values(
-                Points {
-                    x: &x,
-                    y: &y,
-                    z: &z,
-                },
-                &mut values,
-            );
+            Evaluator::with_level(&program, level).values(Points { x: &x, y: &y, z: &z }, &mut values);
             for (p, &value) in points.iter().zip(&values) {
                 let exact = program.value(*p);
                 let error = (f64::from(value) - exact).abs();
@@ -73,14 +66,7 @@ fn batches_of_any_size_give_the_same_bits() {
     let points = points(&mut Random::new(6), 700);
     let [x, y, z] = columns(&points);
     let mut whole = vec![0.0; points.len()];
-    Evaluator::new(&program).values(
-        Points {
-            x: &x,
-            y: &y,
-            z: &z,
-        },
-        &mut whole,
-    );
+    Evaluator::new(&program).values(Points { x: &x, y: &y, z: &z }, &mut whole);
     for size in [1, 3, 16, 17, 255, 256, 257] {
         let mut evaluator = Evaluator::new(&program);
         for start in (0..points.len()).step_by(size) {
@@ -107,25 +93,15 @@ fn gradients_agree_with_differences() {
         let mut values = vec![0.0; points.len()];
         let mut gradient = [(); 3].map(|()| vec![0.0; points.len()]);
         let [gx, gy, gz] = &mut gradient;
-        Evaluator::new(&program).gradients(
-            Points {
-                x: &x,
-                y: &y,
-                z: &z,
-            },
-            &mut values,
-            [gx, gy, gz],
-        );
+        Evaluator::new(&program).gradients(Points { x: &x, y: &y, z: &z }, &mut values, [gx, gy, gz]);
         let mut smooth = 0;
         for (i, &p) in points.iter().enumerate() {
             let (value, exact) = program.gradient(p);
             assert_eq!(value, program.value(p), "{name} {seed} at {p}");
             assert!(exact.is_finite(), "{name} {seed} at {p}: {exact}");
             let at = |axis: usize, step: f64| program.value(p + DVec3::AXES[axis] * step);
-            let differences =
-                DVec3::from_array([0, 1, 2].map(|a| (at(a, STEP) - at(a, -STEP)) / (2.0 * STEP)));
-            let bends = (0..3)
-                .any(|a| (at(a, STEP) + at(a, -STEP) - 2.0 * value).abs() > 1e3 * STEP * STEP);
+            let differences = DVec3::from_array([0, 1, 2].map(|a| (at(a, STEP) - at(a, -STEP)) / (2.0 * STEP)));
+            let bends = (0..3).any(|a| (at(a, STEP) + at(a, -STEP) - 2.0 * value).abs() > 1e3 * STEP * STEP);
             if bends {
                 continue;
             }
@@ -134,20 +110,13 @@ fn gradients_agree_with_differences() {
                 exact.distance(differences) < 1e-4,
                 "{name} {seed} at {p}: {exact}, not {differences}"
             );
-            let single = DVec3::new(
-                gradient[0][i].into(),
-                gradient[1][i].into(),
-                gradient[2][i].into(),
-            );
+            let single = DVec3::new(gradient[0][i].into(), gradient[1][i].into(), gradient[2][i].into());
             assert!(
                 single.distance(exact) < 3e-3,
                 "{name} {seed} at {p}: {single}, not {exact}"
             );
         }
-        assert!(
-            smooth > 200,
-            "{name} {seed}: only {smooth} points away from edges"
-        );
+        assert!(smooth > 200, "{name} {seed}: only {smooth} points away from edges");
     }
 }
 
@@ -158,11 +127,7 @@ fn hessians_agree_with_differences_of_gradients() {
         let program = program(&field);
         for p in points(&mut Random::new(seed + 200), 100) {
             let (value, gradient, hessian) = program.hessian(p);
-            assert_eq!(
-                (value, gradient),
-                program.gradient(p),
-                "{name} {seed} at {p}"
-            );
+            assert_eq!((value, gradient), program.gradient(p), "{name} {seed} at {p}");
             for axis in 0..3 {
                 let at = |step: f64| program.gradient(p + DVec3::AXES[axis] * step).1;
                 let (before, after) = (at(-STEP), at(STEP));
@@ -192,10 +157,7 @@ fn intervals_contain_and_are_narrow() {
         for _ in 0..60 {
             let corner = random.point(2.0);
             let at = program.interval(corner.to_array().map(Interval::point));
-            assert!(
-                at.contains(program.value(corner)),
-                "{name} {seed} at {corner}"
-            );
+            assert!(at.contains(program.value(corner)), "{name} {seed} at {corner}");
             assert!(
                 at.width() < POINT_WIDTH,
                 "{name} {seed} at {corner}: width {}",
@@ -205,8 +167,7 @@ fn intervals_contain_and_are_narrow() {
             let cell = program.interval(corner.to_array().map(|c| Interval::new(c, c + CELL)));
             let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
             for i in 0..216 {
-                let place =
-                    DVec3::new(f64::from(i % 6), f64::from(i / 6 % 6), f64::from(i / 36)) / 5.0;
+                let place = DVec3::new(f64::from(i % 6), f64::from(i / 6 % 6), f64::from(i / 36)) / 5.0;
                 let value = program.value(corner + place * CELL);
                 assert!(
                     cell.contains(value),
@@ -241,14 +202,10 @@ fn expressions_compute_the_same_and_are_valid_shaders() {
             );
         }
         let text = wgsl::PARAMETERS.to_owned() + &wgsl::function("field", &graph, result);
-        let module =
-            naga::front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{name}: {e}\n{text}"));
-        naga::valid::Validator::new(
-            naga::valid::ValidationFlags::all(),
-            naga::valid::Capabilities::empty(),
-        )
-        .validate(&module)
-        .unwrap_or_else(|e| panic!("{name}: {e:?}\n{text}"));
+        let module = naga::front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{name}: {e}\n{text}"));
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty())
+            .validate(&module)
+            .unwrap_or_else(|e| panic!("{name}: {e:?}\n{text}"));
     }
 }
 
@@ -262,11 +219,7 @@ fn programs_agree_with_set_logic_on_random_trees() {
             if let Some(inside) = common::contains(&field, p)
                 && value.abs() > 1e-5
             {
-                assert_eq!(
-                    inside,
-                    value < 0.0,
-                    "seed {seed} at {p}: {value} in {field:#?}"
-                );
+                assert_eq!(inside, value < 0.0, "seed {seed} at {p}: {value} in {field:#?}");
             }
         }
     }
@@ -290,20 +243,10 @@ fn an_origin_far_away_changes_nothing_but_precision() {
         let [x, y, z] = columns(&points);
         let mut values = [vec![0.0; 64], vec![0.0; 64]];
         for (program, values) in [here, there].iter().zip(&mut values) {
-            Evaluator::new(program).values(
-                Points {
-                    x: &x,
-                    y: &y,
-                    z: &z,
-                },
-                values,
-            );
+            Evaluator::new(program).values(Points { x: &x, y: &y, z: &z }, values);
         }
         for (a, b) in values[0].iter().zip(&values[1]) {
-            assert!(
-                (a - b).abs() < 2e-5 * (1.0 + a.abs()),
-                "seed {seed}: {a} and {b}"
-            );
+            assert!((a - b).abs() < 2e-5 * (1.0 + a.abs()), "seed {seed}: {a} and {b}");
         }
     }
 }
@@ -311,27 +254,16 @@ fn an_origin_far_away_changes_nothing_but_precision() {
 #[test]
 fn shares_are_the_partial_derivatives() {
     for seed in 0..80 {
-        let objects: Vec<Field> = (0..2)
-            .map(|i| tree(3, &mut Random::new(seed * 7 + i)))
-            .collect();
+        let objects: Vec<Field> = (0..2).map(|i| tree(3, &mut Random::new(seed * 7 + i))).collect();
         let structure = Structure::compile(&objects).expect("sound fields");
         let program = structure.program(DVec3::ZERO);
         let points = points(&mut Random::new(seed + 700), 300);
         let [x, y, z] = columns(&points);
         let mut shares = Shares::default();
-        Evaluator::new(&program).shares(
-            Points {
-                x: &x,
-                y: &y,
-                z: &z,
-            },
-            &mut shares,
-        );
+        Evaluator::new(&program).shares(Points { x: &x, y: &y, z: &z }, &mut shares);
         let alone: Vec<Program> = objects.iter().map(program_of).collect();
         for (i, &p) in points.iter().enumerate() {
-            let total: f32 = (0..structure.regions().len())
-                .map(|region| shares.of(region)[i])
-                .sum();
+            let total: f32 = (0..structure.regions().len()).map(|region| shares.of(region)[i]).sum();
             assert!((total - 1.0).abs() < 1e-5, "seed {seed} at {p}: {total}");
             let of_first: f32 = structure
                 .regions()
@@ -380,9 +312,7 @@ fn blends_share_by_their_derivatives() {
                     0.5,
                     [
                         cuboid([1.5, 1.0, 1.2]).into(),
-                        sphere(0.8)
-                            .at([0.7, 0.2, 0.0])
-                            .painted(freikugel_field::MaterialId(1)),
+                        sphere(0.8).at([0.7, 0.2, 0.0]).painted(freikugel_field::MaterialId(1)),
                     ],
                 )
                 .with("order", &[order.into()])],
@@ -392,14 +322,7 @@ fn blends_share_by_their_derivatives() {
             let points = points(&mut Random::new(9), 400);
             let [x, y, z] = columns(&points);
             let mut shares = Shares::default();
-            Evaluator::new(&program).shares(
-                Points {
-                    x: &x,
-                    y: &y,
-                    z: &z,
-                },
-                &mut shares,
-            );
+            Evaluator::new(&program).shares(Points { x: &x, y: &y, z: &z }, &mut shares);
             let painted = structure
                 .regions()
                 .iter()

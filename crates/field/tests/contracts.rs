@@ -17,12 +17,7 @@ fn program(field: &Field) -> Program {
 /// Every shape over primitives, and random trees.
 fn fields() -> impl Iterator<Item = (String, Field)> {
     let shapes = every_shape(CALLS).map(|(name, seed, field)| (format!("{name} {seed}"), field));
-    let trees = (0..150).map(|seed| {
-        (
-            format!("tree {seed}"),
-            tree(4, &mut Random::new(seed + 1000)),
-        )
-    });
+    let trees = (0..150).map(|seed| (format!("tree {seed}"), tree(4, &mut Random::new(seed + 1000))));
     shapes.chain(trees)
 }
 
@@ -67,13 +62,8 @@ fn the_lipschitz_constant_is_not_lazy() {
             .fold(0.0, f64::max);
         // An operator knows its child's constant, not in which direction the child is steepest: a plane may stand so that
         // stretching flattens it. Trees may hide their steepest part altogether.
-        let flat = ["plane", "sheet"].contains(
-            &field
-                .node()
-                .children
-                .first()
-                .map_or("", |c| c.node().shape.about.name),
-        );
+        let flat =
+            ["plane", "sheet"].contains(&field.node().children.first().map_or("", |c| c.node().shape.about.name));
         let excused = name.starts_with("tree") || (name.starts_with("stretch") && flat);
         assert!(
             excused || lipschitz <= 1.25 * largest,
@@ -101,17 +91,9 @@ fn the_ball_of_the_bound_is_empty_and_that_of_an_exact_distance_touches() {
             }
             for _ in 0..60 {
                 let q = p + random.direction() * (value.abs() - margin) * random.unit().cbrt();
-                assert_eq!(
-                    contains(&field, q),
-                    Some(here),
-                    "{name}: {q} within {value} of {p}"
-                );
+                assert_eq!(contains(&field, q), Some(here), "{name}: {q} within {value} of {p}");
             }
-            let metric = if value > 0.0 {
-                contract.outside
-            } else {
-                contract.inside
-            };
+            let metric = if value > 0.0 { contract.outside } else { contract.inside };
             if metric == Metric::Exact && (gradient.length() - 1.0).abs() < 1e-6 {
                 let beyond = p - gradient * (value + margin * value.signum());
                 let touches = contains(&field, beyond) == Some(!here)
@@ -120,10 +102,7 @@ fn the_ball_of_the_bound_is_empty_and_that_of_an_exact_distance_touches() {
                         let near = p - gradient * value + random.direction() * margin;
                         contains(&field, near) == Some(!here)
                     });
-                assert!(
-                    touches,
-                    "{name}: nothing at distance {value} of {p} from {field:#?}"
-                );
+                assert!(touches, "{name}: nothing at distance {value} of {p} from {field:#?}");
             }
         }
     }
@@ -131,8 +110,7 @@ fn the_ball_of_the_bound_is_empty_and_that_of_an_exact_distance_touches() {
 
 #[test]
 fn an_exact_distance_equals_the_nearest_of_many_surface_points() {
-    for (name, field) in every_shape(3).map(|(name, seed, field)| (format!("{name} {seed}"), field))
-    {
+    for (name, field) in every_shape(3).map(|(name, seed, field)| (format!("{name} {seed}"), field)) {
         let contract = analyse(&field).0.expect("sound").contract;
         if contract.outside != Metric::Exact || contains(&field, DVec3::ZERO).is_none() {
             continue;
@@ -242,8 +220,7 @@ fn the_extent_of_primitives_under_maps_is_tight() {
                 let score = |p: DVec3| p[axis] * sign;
                 let mut best: Option<DVec3> = None;
                 for _ in 0..20_000 {
-                    let p = aabb.min
-                        + aabb.size() * DVec3::new(random.unit(), random.unit(), random.unit());
+                    let p = aabb.min + aabb.size() * DVec3::new(random.unit(), random.unit(), random.unit());
                     if program.value(p) < 0.0 && best.is_none_or(|b| score(p) > score(b)) {
                         best = Some(p);
                     }
@@ -260,11 +237,7 @@ fn the_extent_of_primitives_under_maps_is_tight() {
                     step *= 0.9;
                 }
                 let best = best.unwrap_or_else(|| panic!("{name} {seed} is empty"));
-                let face = if sign > 0.0 {
-                    aabb.max[axis]
-                } else {
-                    aabb.min[axis]
-                };
+                let face = if sign > 0.0 { aabb.max[axis] } else { aabb.min[axis] };
                 assert!(
                     (face - best[axis]).abs() < 0.01 * aabb.size()[axis],
                     "{name} {seed}, axis {axis}: {face} for {}",
@@ -288,10 +261,7 @@ fn metrics_are_as_claimed() {
     assert_eq!(metric(a() & b()), (Metric::Bound, Metric::Exact, true));
     assert_eq!(metric(a() - b()), (Metric::Bound, Metric::Exact, true));
     assert_eq!(metric(-(a() | b())), (Metric::Bound, Metric::Exact, true));
-    assert_eq!(
-        metric(a() - (b() & a())),
-        (Metric::Bound, Metric::Bound, true)
-    );
+    assert_eq!(metric(a() - (b() & a())), (Metric::Bound, Metric::Bound, true));
     assert_eq!(
         metric(smooth_union(0.1, [a().at([0.0; 3]), b().at([0.0; 3])])),
         (Metric::Bound, Metric::Bound, true)
@@ -308,14 +278,8 @@ fn metrics_are_as_claimed() {
         metric(a().stretch([2.0, -2.0, 2.0])),
         (Metric::Exact, Metric::Exact, true)
     );
-    assert_eq!(
-        metric(b().offset(0.1)),
-        (Metric::Exact, Metric::Bound, true)
-    );
-    assert_eq!(
-        metric(b().offset(-0.1)),
-        (Metric::Bound, Metric::Exact, true)
-    );
+    assert_eq!(metric(b().offset(0.1)), (Metric::Exact, Metric::Bound, true));
+    assert_eq!(metric(b().offset(-0.1)), (Metric::Bound, Metric::Exact, true));
     assert_eq!(metric(b().shell(0.1)), (Metric::Exact, Metric::Bound, true));
     assert_eq!(
         metric(sheet([0.0, 0.0, 1.0]).into()),
@@ -325,8 +289,5 @@ fn metrics_are_as_claimed() {
         metric(sheet([0.0, 0.0, 1.0]).offset(0.1)),
         (Metric::Exact, Metric::Bound, true)
     );
-    assert_eq!(
-        metric(torus(0.5, 0.7).into()),
-        (Metric::Exact, Metric::Bound, true)
-    );
+    assert_eq!(metric(torus(0.5, 0.7).into()), (Metric::Exact, Metric::Bound, true));
 }

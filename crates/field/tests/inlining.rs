@@ -30,20 +30,14 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
     let mut random = Random::new(4);
     let mut blocks = |count: usize| -> Vec<Block> {
         let mut blocks = vec![Block::default(); count];
-        blocks.iter_mut().for_each(|b| {
-            b.0.iter_mut()
-                .for_each(|v| *v = random.range(-2.0, 2.0) as f32)
-        });
+        blocks
+            .iter_mut()
+            .for_each(|b| b.0.iter_mut().for_each(|v| *v = random.range(-2.0, 2.0) as f32));
         blocks
     };
     let field = call(shape, 0, &mut Random::new(3));
     let args = field.node().numbers();
-    let single = |constants: Vec<f64>| {
-        constants
-            .into_iter()
-            .map(|c| c as f32)
-            .collect::<Vec<f32>>()
-    };
+    let single = |constants: Vec<f64>| constants.into_iter().map(|c| c as f32).collect::<Vec<f32>>();
     let count = BATCH;
     match &shape.kind {
         Kind::Primitive(table) => [
@@ -127,14 +121,7 @@ fn affine() -> Work {
     let program = structure.program(DVec3::ZERO);
     Box::new(move |level| {
         let (x, mut values) = ([0.5; BATCH], [0.0; BATCH]);
-        Evaluator::with_level(&program, level).values(
-            Points {
-                x: &x,
-                y: &x,
-                z: &x,
-            },
-            &mut values,
-        );
+        Evaluator::with_level(&program, level).values(Points { x: &x, y: &x, z: &x }, &mut values);
     })
 }
 

@@ -5,11 +5,7 @@ use freikugel_field::{Dual, Interval, Scalar};
 use proptest::prelude::*;
 
 fn allows(outcome: Trilean, truth: bool) -> bool {
-    if truth {
-        outcome.can_hold
-    } else {
-        outcome.can_fail
-    }
+    if truth { outcome.can_hold } else { outcome.can_fail }
 }
 
 /// An interval and a number in it.
@@ -93,9 +89,7 @@ fn lengths_and_roots_at_zero_have_finite_derivatives() {
 
 #[test]
 fn iteration_stops_lane_by_lane_and_at_the_limit() {
-    let doubled = |limit: u32, until: f64| {
-        f64::iterate(limit, [1.0], |[s]| ([s * 2.0], (s * 2.0).lt(until)))[0]
-    };
+    let doubled = |limit: u32, until: f64| f64::iterate(limit, [1.0], |[s]| ([s * 2.0], (s * 2.0).lt(until)))[0];
     assert_eq!(doubled(100, 50.0), 64.0);
     assert_eq!(doubled(3, 50.0), 8.0);
     assert_eq!(doubled(0, 50.0), 1.0);

@@ -44,10 +44,7 @@ impl Primitive for ConvexPolyhedronBound {
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
-        let moved: Vec<(DVec3, f64)> = half_spaces(args)
-            .into_iter()
-            .map(|(n, d)| (n, d + level))
-            .collect();
+        let moved: Vec<(DVec3, f64)> = half_spaces(args).into_iter().map(|(n, d)| (n, d + level)).collect();
         let along_a_plane = args
             .chunks_exact(4)
             .map(|h| support_of_plane(h, direction, level))

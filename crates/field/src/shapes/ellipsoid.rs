@@ -104,10 +104,7 @@ impl Primitive for Ellipsoid {
                 let n_squared = ux + uy + uz;
                 let residual = n_squared.sqrt() - one;
                 let slope = ux * ix + uy * iy + uz * iz;
-                (
-                    [s + residual * n_squared / slope],
-                    one.lift(RESIDUAL).lt(residual),
-                )
+                ([s + residual * n_squared / slope], one.lift(RESIDUAL).lt(residual))
             },
         );
         let normal = S::length3(x / (s + ex), y / (s + ey), z / (s + ez));

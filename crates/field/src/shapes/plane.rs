@@ -52,10 +52,7 @@ const SAME_DIRECTION: f64 = 1e-12;
 pub(crate) fn support_of_plane(args: &[f64], direction: DVec3, level: f64) -> f64 {
     let normal = DVec3::from_slice(args).normalize();
     let length = direction.length();
-    if length > 0.0
-        && normal.cross(direction / length).length() < SAME_DIRECTION
-        && normal.dot(direction) > 0.0
-    {
+    if length > 0.0 && normal.cross(direction / length).length() < SAME_DIRECTION && normal.dot(direction) > 0.0 {
         (args[3] + level) * length
     } else {
         f64::INFINITY

@@ -52,9 +52,8 @@ impl Modify for Shell {
     }
 
     fn warning(_args: &[f64], child: Contract) -> Option<String> {
-        (child.outside.max(child.inside) != Metric::Exact).then(|| {
-            "the field under this shell is only a bound, so that the wall's thickness varies".into()
-        })
+        (child.outside.max(child.inside) != Metric::Exact)
+            .then(|| "the field under this shell is only a bound, so that the wall's thickness varies".into())
     }
 
     fn level(args: &[f64], level: f64) -> Option<f64> {

@@ -35,11 +35,7 @@ impl Primitive for Torus {
     fn contract(args: &[f64]) -> Contract {
         let overlaps = args[1] > args[0];
         Contract {
-            inside: if overlaps {
-                Metric::Bound
-            } else {
-                Metric::Exact
-            },
+            inside: if overlaps { Metric::Bound } else { Metric::Exact },
             ..Contract::EXACT
         }
     }

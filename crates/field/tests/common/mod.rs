@@ -69,25 +69,12 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
         ParamKind::Angles => (0..3).for_each(|_| push(random.range(-4.0, 4.0))),
         ParamKind::Quaternion => (0..4).for_each(|_| push(random.range(-1.0, 1.0))),
         ParamKind::HalfSpaces => {
-            let tilt = DMat3::from_quat(DQuat::from_axis_angle(
-                random.direction(),
-                random.range(0.0, 3.0),
-            ));
-            let axes = [
-                DVec3::X,
-                DVec3::Y,
-                DVec3::Z,
-                DVec3::NEG_X,
-                DVec3::NEG_Y,
-                DVec3::NEG_Z,
-            ];
+            let tilt = DMat3::from_quat(DQuat::from_axis_angle(random.direction(), random.range(0.0, 3.0)));
+            let axes = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
             let more = random.below(5);
-            for i in 0..6 + more {
-                let normal = if i < 6 {
-                    tilt * axes[i]
-                } else {
-                    random.direction()
-                };
+            let tilted = axes.map(|axis| tilt * axis);
+            let others: Vec<DVec3> = (0..more).map(|_| random.direction()).collect();
+            for normal in tilted.into_iter().chain(others) {
                 normal.to_array().into_iter().for_each(&mut push);
                 push(random.range(0.4, 1.0));
             }
@@ -105,12 +92,9 @@ pub(crate) fn call(shape: &'static Shape, depth: u32, random: &mut Random) -> Fi
         let children: Vec<Field> = match shape.arity() {
             Arity::None => Vec::new(),
             Arity::One => vec![tree(depth, random)],
-            Arity::Many => (0..2 + random.below(2))
-                .map(|_| tree(depth, random))
-                .collect(),
+            Arity::Many => (0..2 + random.below(2)).map(|_| tree(depth, random)).collect(),
         };
-        let material = matches!(shape.kind, Kind::Paint)
-            .then(|| freikugel_field::MaterialId(random.below(3) as u32));
+        let material = matches!(shape.kind, Kind::Paint).then(|| freikugel_field::MaterialId(random.below(3) as u32));
         let field = Field::with_origin(shape, args, children, material, Origin::Document(0));
         if analyse(&field).0.is_some() {
             return field;
@@ -130,13 +114,7 @@ pub(crate) fn tree(depth: u32, random: &mut Random) -> Field {
 /// Fields that exercise every shape: several random calls of each, over primitives.
 pub(crate) fn every_shape(calls: u64) -> impl Iterator<Item = (&'static str, u64, Field)> {
     shapes::ALL.iter().flat_map(move |shape| {
-        (0..calls).map(move |seed| {
-            (
-                shape.about.name,
-                seed,
-                call(shape, 0, &mut Random::new(seed + 1)),
-            )
-        })
+        (0..calls).map(move |seed| (shape.about.name, seed, call(shape, 0, &mut Random::new(seed + 1))))
     })
 }
 
@@ -166,10 +144,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             p.distance(on_circle) < *minor
         }
         ("cylinder", [radius, height, round, _]) => {
-            let (side, end) = (
-                across - (radius - round),
-                p.z.abs() - (height / 2.0 - round),
-            );
+            let (side, end) = (across - (radius - round), p.z.abs() - (height / 2.0 - round));
             if side <= 0.0 || end <= 0.0 {
                 side < *round && end < *round
             } else {
@@ -188,25 +163,19 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             for _ in 0..60 {
                 let third = (high - low) / 3.0;
                 if at(low + third) < at(high - third) {
-                    high -= third
+                    high -= third;
                 } else {
-                    low += third
+                    low += third;
                 }
             }
             at(low) < r * r
         }
-        ("ellipsoid" | "ellipsoid_bound", [x, y, z]) => {
-            (p / DVec3::new(*x, *y, *z)).length_squared() < 1.0
+        ("ellipsoid" | "ellipsoid_bound", [x, y, z]) => (p / DVec3::new(*x, *y, *z)).length_squared() < 1.0,
+        ("convex_polyhedron" | "convex_polyhedron_bound", planes) => {
+            planes.chunks(4).all(|h| DVec3::from_slice(h).normalize().dot(p) < h[3])
         }
-        ("convex_polyhedron" | "convex_polyhedron_bound", planes) => planes
-            .chunks(4)
-            .all(|h| DVec3::from_slice(h).normalize().dot(p) < h[3]),
-        ("union", _) => all(children.map(|c| contains(c, p)))?
-            .into_iter()
-            .any(|c| c),
-        ("intersection", _) => all(children.map(|c| contains(c, p)))?
-            .into_iter()
-            .all(|c| c),
+        ("union", _) => all(children.map(|c| contains(c, p)))?.into_iter().any(|c| c),
+        ("intersection", _) => all(children.map(|c| contains(c, p)))?.into_iter().all(|c| c),
         ("difference", _) => {
             let inside = all(children.map(|c| contains(c, p)))?;
             inside[0] && !inside[1..].iter().any(|&c| c)

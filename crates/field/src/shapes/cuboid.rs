@@ -28,11 +28,7 @@ impl Primitive for Cuboid {
         name: "box",
         summary: "A box with its middle at the origin.",
         params: &[
-            Param::required(
-                "size",
-                ParamKind::Size,
-                "Full edge lengths along x, y and z.",
-            ),
+            Param::required("size", ParamKind::Size, "Full edge lengths along x, y and z."),
             Param::optional(
                 "round",
                 ParamKind::Length,
