@@ -1,3 +1,44 @@
-//! The project's own chores.
+//! The project's own chores: `cargo xtask help` lists them.
 
-fn main() {}
+mod probe;
+mod run;
+mod shapes;
+mod test;
+
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+usage: cargo xtask COMMAND
+
+  test          everything a change must pass; installs what it needs and says so
+  shapes        writes the list of shapes from the files under crates/field/src/shapes
+  schema        writes schema/scene.schema.json
+  gallery       renders all scenes into gallery/
+  probe-shape   proves that a new shape needs one file and nothing else
+";
+
+fn main() -> ExitCode {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let result = match args.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["test"] => test::all(),
+        ["shapes"] => shapes::write(&run::root()),
+        ["schema"] => run::schema(&run::root()),
+        ["gallery"] => run::gallery(&run::root()),
+        ["probe-shape"] => probe::shape(),
+        ["help" | "--help" | "-h"] => {
+            print!("{USAGE}");
+            Ok(())
+        }
+        _ => {
+            eprint!("{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("xtask: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -61,14 +61,7 @@ struct Walk {
 }
 
 impl Walk {
-    fn report(
-        &mut self,
-        node: &Node,
-        severity: Severity,
-        param: Option<usize>,
-        message: String,
-        hint: Option<String>,
-    ) {
+    fn report(&mut self, node: &Node, severity: Severity, param: Option<usize>, message: String, hint: Option<String>) {
         self.diagnostics.push(Diagnostic {
             severity,
             message,
@@ -89,11 +82,7 @@ impl Walk {
         let name = node.shape.about.name;
         self.nodes += 1;
         // All children are looked at, whatever is wrong here.
-        let children: Vec<Option<Contract>> = node
-            .children
-            .iter()
-            .map(|child| self.visit(child))
-            .collect();
+        let children: Vec<Option<Contract>> = node.children.iter().map(|child| self.visit(child)).collect();
         let sound = self.arguments_are_sound(node);
         match (node.shape.arity(), node.children.len()) {
             (Arity::None, 0) | (Arity::One, 1) | (Arity::Many, 1..) => {}
@@ -103,13 +92,7 @@ impl Walk {
             }
             (Arity::Many, _) => {
                 let hint = Some("give at least one shape, or leave it out".into());
-                self.report(
-                    node,
-                    Severity::Error,
-                    None,
-                    format!("{name} has no shapes"),
-                    hint,
-                );
+                self.report(node, Severity::Error, None, format!("{name} has no shapes"), hint);
                 return None;
             }
         }
@@ -172,13 +155,9 @@ impl Walk {
             } else {
                 start + width
             };
-            let is_there =
-                end <= node.args.len() && end > start && (end - start).is_multiple_of(width);
+            let is_there = end <= node.args.len() && end > start && (end - start).is_multiple_of(width);
             let fault = if is_there {
-                let numbers: Vec<f64> = node.args[start..end]
-                    .iter()
-                    .map(|value| value.number())
-                    .collect();
+                let numbers: Vec<f64> = node.args[start..end].iter().map(|value| value.number()).collect();
                 param
                     .kind
                     .fault(&numbers)
@@ -257,8 +236,7 @@ fn support(field: &Field, direction: DVec3, level: f64) -> f64 {
         Kind::Place(table) => {
             let map = (table.map)(&args);
             let within = map.matrix3.transpose() * direction;
-            support(&node.children[0], within, level / (table.factor)(&args))
-                + direction.dot(map.translation)
+            support(&node.children[0], within, level / (table.factor)(&args)) + direction.dot(map.translation)
         }
         Kind::Modify(table) => match (table.level)(&args, level) {
             Some(level) => support(&node.children[0], direction, level),

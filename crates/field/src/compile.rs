@@ -4,7 +4,7 @@
 //! one for points and one for values. Chains of affine maps are joined into one; a mere translation costs nothing, since
 //! every primitive subtracts one anyway; a primitive under a union is folded into the running minimum in one kernel.
 //!
-//! A structure holds no numbers, only where they come from: each operation's constants are described by a [`Derive`],
+//! A structure holds no numbers, only where they come from: each operation's constants are described by a `Derive`,
 //! which binding evaluates in `f64`. Changing a number never changes the structure, with one exception: the number of
 //! entries in a list.
 
@@ -146,10 +146,7 @@ impl Structure {
     pub fn compile(objects: &[Field]) -> Result<Self, Vec<Diagnostic>> {
         let (lipschitz, warnings) = lipschitz_of_union(objects)?;
         let mut compiler = Compiler::default();
-        let trees: Vec<Slotted<'_>> = objects
-            .iter()
-            .map(|object| compiler.slots(object))
-            .collect();
+        let trees: Vec<Slotted<'_>> = objects.iter().map(|object| compiler.slots(object)).collect();
         let (ops, registers) = compiler.emit_objects(&trees, true);
         let (share_ops, share_registers) = compiler.emit_objects(&trees, false);
         let code = Code {
@@ -225,9 +222,7 @@ impl Structure {
 }
 
 /// The Lipschitz constant of the union of `objects`, and the warnings about them; or all diagnostics if one is an error.
-fn lipschitz_of_union(
-    objects: &[Field],
-) -> Result<(Option<f64>, Vec<Diagnostic>), Vec<Diagnostic>> {
+fn lipschitz_of_union(objects: &[Field]) -> Result<(Option<f64>, Vec<Diagnostic>), Vec<Diagnostic>> {
     let mut diagnostics = Vec::new();
     let mut lipschitz = Some(0.0_f64);
     for object in objects {
@@ -297,11 +292,7 @@ impl Compiler {
         Slotted {
             node,
             args,
-            children: node
-                .children
-                .iter()
-                .map(|child| self.slots(child))
-                .collect(),
+            children: node.children.iter().map(|child| self.slots(child)).collect(),
         }
     }
 
@@ -331,9 +322,7 @@ impl Compiler {
             emission.object = index;
             result = Some(match result {
                 None => self.emit_into(&mut emission, object, &root, None, None, Fold::Set),
-                Some(before) => {
-                    self.emit_folded(&mut emission, object, &root, None, before, (union, 0..0))
-                }
+                Some(before) => self.emit_folded(&mut emission, object, &root, None, before, (union, 0..0)),
             });
         }
         emission.registers.result = result.unwrap_or(0);
@@ -389,9 +378,7 @@ impl Compiler {
                 let outer = space;
                 let mut space = space.clone();
                 if node.axis().is_some() {
-                    space.chain.push(Link::Axis {
-                        arg: tree.args.end - 1,
-                    });
+                    space.chain.push(Link::Axis { arg: tree.args.end - 1 });
                 }
                 if !space.chain.iter().all(Link::is_translation) {
                     space = self.materialise(emission, &space);
@@ -418,12 +405,11 @@ impl Compiler {
             Kind::Combine(table) => {
                 // Several children would each repeat the map.
                 let outer = space;
-                let space =
-                    if space.chain.iter().all(Link::is_translation) || tree.children.len() == 1 {
-                        space.clone()
-                    } else {
-                        self.materialise(emission, space)
-                    };
+                let space = if space.chain.iter().all(Link::is_translation) || tree.children.len() == 1 {
+                    space.clone()
+                } else {
+                    self.materialise(emission, space)
+                };
                 let constants = self.prepared(table.prepare, &tree.args);
                 let mut children = tree.children.iter();
                 let Some(first) = children.next() else {
@@ -431,14 +417,7 @@ impl Compiler {
                 };
                 let mut result = self.emit_into(emission, first, &space, material, out, fold);
                 for child in children {
-                    result = self.emit_folded(
-                        emission,
-                        child,
-                        &space,
-                        material,
-                        result,
-                        (table, constants.clone()),
-                    );
+                    result = self.emit_folded(emission, child, &space, material, result, (table, constants.clone()));
                 }
                 emission.release(&space, outer);
                 result
@@ -449,20 +428,15 @@ impl Compiler {
                     table,
                     args: tree.args.clone(),
                 });
-                let result =
-                    self.emit_into(emission, &tree.children[0], &space, material, out, fold);
+                let result = self.emit_into(emission, &tree.children[0], &space, material, out, fold);
                 if !is_rigid(node) {
                     let factor = self.factor(table, &tree.args);
-                    emission.ops.push(Op::Scale {
-                        value: result,
-                        factor,
-                    });
+                    emission.ops.push(Op::Scale { value: result, factor });
                 }
                 result
             }
             Kind::Modify(table) => {
-                let result =
-                    self.emit_into(emission, &tree.children[0], space, material, out, fold);
+                let result = self.emit_into(emission, &tree.children[0], space, material, out, fold);
                 let constants = self.prepared(table.prepare, &tree.args);
                 emission.ops.push(Op::Modify {
                     table,
@@ -483,11 +457,7 @@ impl Compiler {
         let from_root = space.point == 0;
         let wanted = Wanted::Affine(space.chain.iter().map(Link::slot).collect(), from_root);
         let chain = space.chain.clone();
-        let constants = self.derived(wanted, AFFINE_CONSTANTS, |out| Derive::Affine {
-            chain,
-            from_root,
-            out,
-        });
+        let constants = self.derived(wanted, AFFINE_CONSTANTS, |out| Derive::Affine { chain, from_root, out });
         let to = emission.free_points.pop().unwrap_or_else(|| {
             emission.registers.points += 1;
             emission.registers.points - 1
@@ -507,11 +477,7 @@ impl Compiler {
         let from_root = space.point == 0;
         let chain = space.chain.clone();
         let wanted = Wanted::Offset(chain.iter().map(Link::slot).collect(), from_root);
-        self.derived(wanted, 3, |out| Derive::Offset {
-            chain,
-            from_root,
-            out,
-        })
+        self.derived(wanted, 3, |out| Derive::Offset { chain, from_root, out })
     }
 
     fn prepared(&mut self, prepare: fn(&[f64]) -> Vec<f64>, args: &Range<usize>) -> Range<usize> {
@@ -538,12 +504,7 @@ impl Compiler {
         .start
     }
 
-    fn derived(
-        &mut self,
-        wanted: Wanted,
-        count: usize,
-        make: impl FnOnce(Range<usize>) -> Derive,
-    ) -> Range<usize> {
+    fn derived(&mut self, wanted: Wanted, count: usize, make: impl FnOnce(Range<usize>) -> Derive) -> Range<usize> {
         if let Some(known) = self.known.get(&wanted) {
             return known.clone();
         }
@@ -604,9 +565,7 @@ impl Link {
 fn can_fold(node: &Node) -> bool {
     match &node.shape.kind {
         Kind::Primitive(_) => true,
-        Kind::Combine(table) => {
-            table.is_minimum && node.children.iter().all(|child| can_fold(child.node()))
-        }
+        Kind::Combine(table) => table.is_minimum && node.children.iter().all(|child| can_fold(child.node())),
         Kind::Place(_) => is_rigid(node) && can_fold(node.children[0].node()),
         Kind::Modify(_) => false,
         Kind::Paint => can_fold(node.children[0].node()),

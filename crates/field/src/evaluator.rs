@@ -5,8 +5,7 @@
 
 use crate::compile::{Op, Registers};
 use crate::kernel::{
-    AffineJob, BATCH, Block, CombineJob, ModifyJob, PrimitiveJob, WIDEST, affine_gradients,
-    affine_values,
+    AffineJob, BATCH, Block, CombineJob, ModifyJob, PrimitiveJob, WIDEST, affine_gradients, affine_values,
 };
 use crate::program::Program;
 use crate::simd::{self, Level};
@@ -120,18 +119,9 @@ impl<'p> Evaluator<'p> {
         let [gx, gy, gz] = gradient;
         for batch in batches(values.len()) {
             let count = self.gradients.load(points.slice(batch.clone()));
-            run(
-                self.program,
-                &code.ops,
-                self.level,
-                &mut self.gradients,
-                count,
-            );
+            run(self.program, &code.ops, self.level, &mut self.gradients, count);
             let from = &self.gradients.values[result..result + 4];
-            for (out, from) in [&mut *values, &mut *gx, &mut *gy, &mut *gz]
-                .into_iter()
-                .zip(from)
-            {
+            for (out, from) in [&mut *values, &mut *gx, &mut *gy, &mut *gz].into_iter().zip(from) {
                 let out = &mut out[batch.clone()];
                 out.copy_from_slice(&from.0[..out.len()]);
             }
@@ -148,17 +138,10 @@ impl<'p> Evaluator<'p> {
         out.shares.clear();
         out.shares.resize(out.count * code.regions.len(), 0.0);
         self.kept.resize(code.share_registers);
-        self.weights
-            .resize(code.share_registers.values, Block::default());
+        self.weights.resize(code.share_registers.values, Block::default());
         for batch in batches(out.count) {
             let count = self.kept.load(points.slice(batch.clone()));
-            run(
-                self.program,
-                &code.share_ops,
-                self.level,
-                &mut self.kept,
-                count,
-            );
+            run(self.program, &code.share_ops, self.level, &mut self.kept, count);
             self.weights[code.share_registers.result].0.fill(1.0);
             for op in code.share_ops.iter().rev() {
                 match op {
@@ -185,9 +168,7 @@ impl<'p> Evaluator<'p> {
                             self.weights[*b].0[lane] = weight * share.0[lane];
                         }
                     }
-                    Op::Primitive {
-                        out: value, region, ..
-                    } => {
+                    Op::Primitive { out: value, region, .. } => {
                         let start = region * out.count;
                         let to = &mut out.shares[start + batch.start..start + batch.end];
                         for (to, weight) in to.iter_mut().zip(&self.weights[*value].0) {
@@ -203,11 +184,9 @@ impl<'p> Evaluator<'p> {
 
 impl<const C: usize> Bank<C> {
     fn resize(&mut self, registers: Registers) {
-        self.points
-            .resize(registers.points * 3 * C, Block::default());
+        self.points.resize(registers.points * 3 * C, Block::default());
         // A program without operations leaves this: nothing is near.
-        self.values
-            .resize(registers.values * C, Block([f32::INFINITY; BATCH]));
+        self.values.resize(registers.values * C, Block([f32::INFINITY; BATCH]));
     }
 
     /// Fills point register 0 and returns how many points the kernels run over.
@@ -234,21 +213,11 @@ fn batches(count: usize) -> impl Iterator<Item = Range<usize>> {
 }
 
 /// Runs the operations over the `count` points in point register 0.
-fn run<const C: usize>(
-    program: &Program,
-    ops: &[Op],
-    level: Level,
-    bank: &mut Bank<C>,
-    count: usize,
-) {
+fn run<const C: usize>(program: &Program, ops: &[Op], level: Level, bank: &mut Bank<C>, count: usize) {
     let constants_of = |range: &Range<usize>| &program.single[range.clone()];
     for op in ops {
         match op {
-            Op::Affine {
-                from,
-                to,
-                constants,
-            } => {
+            Op::Affine { from, to, constants } => {
                 let size = 3 * C;
                 let [from, to] = bank
                     .points
@@ -261,9 +230,9 @@ fn run<const C: usize>(
                     count,
                 };
                 if C == 1 {
-                    affine_values(level, &mut job)
+                    affine_values(level, &mut job);
                 } else {
-                    affine_gradients(level, &mut job)
+                    affine_gradients(level, &mut job);
                 }
             }
             Op::Primitive {

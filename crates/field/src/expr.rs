@@ -136,12 +136,8 @@ impl Graph {
             let owner = match *term {
                 Term::Input(_) | Term::Slot(_) | Term::Literal(_) => None,
                 Term::Unary(_, a) => deepest(&[a], &owners, &parents),
-                Term::Binary(_, a, b) | Term::Length(a, b, None) => {
-                    deepest(&[a, b], &owners, &parents)
-                }
-                Term::Select(a, b, c) | Term::Length(a, b, Some(c)) => {
-                    deepest(&[a, b, c], &owners, &parents)
-                }
+                Term::Binary(_, a, b) | Term::Length(a, b, None) => deepest(&[a, b], &owners, &parents),
+                Term::Select(a, b, c) | Term::Length(a, b, Some(c)) => deepest(&[a, b, c], &owners, &parents),
                 Term::State(l, _) => {
                     parents[l as usize] = deepest(&loops[l as usize].start, &owners, &parents);
                     Some(l)
@@ -235,11 +231,7 @@ impl Run<'_> {
 
     fn run_loop(&self, l: u32, values: &mut Vec<f64>, finished: &mut Vec<Vec<f64>>) {
         let this = &self.loops[l as usize];
-        let read = |ids: &[u32], values: &[f64]| {
-            ids.iter()
-                .map(|&id| values[id as usize])
-                .collect::<Vec<_>>()
-        };
+        let read = |ids: &[u32], values: &[f64]| ids.iter().map(|&id| values[id as usize]).collect::<Vec<_>>();
         let mut state = read(&this.start, values);
         for _ in 0..this.limit {
             for (id, term) in self.terms.iter().enumerate() {

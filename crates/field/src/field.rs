@@ -102,13 +102,7 @@ impl Field {
         args: impl IntoIterator<Item = Value>,
         children: impl IntoIterator<Item = Field>,
     ) -> Self {
-        Self::with_origin(
-            shape,
-            args,
-            children,
-            None,
-            Origin::Code(Location::caller()),
-        )
+        Self::with_origin(shape, args, children, None, Origin::Code(Location::caller()))
     }
 
     /// As [`Field::new`], with everything said.
@@ -176,8 +170,7 @@ impl Field {
     pub fn with(mut self, name: &str, numbers: &[Value]) -> Self {
         let node = Arc::make_mut(&mut self.0);
         let index = node.shape.about.params.iter().position(|p| p.name == name);
-        let index =
-            index.unwrap_or_else(|| panic!("{} has no parameter {name}", node.shape.about.name));
+        let index = index.unwrap_or_else(|| panic!("{} has no parameter {name}", node.shape.about.name));
         let range = node.shape.range(index, node.args.len());
         node.args[range].copy_from_slice(numbers);
         self
@@ -192,11 +185,7 @@ impl Field {
         let (own, rest) = numbers.split_at(node.args.len());
         *numbers = rest;
         let args = own.iter().map(|&number| Value::Literal(number)).collect();
-        let children = node
-            .children
-            .iter()
-            .map(|child| child.with_numbers(numbers))
-            .collect();
+        let children = node.children.iter().map(|child| child.with_numbers(numbers)).collect();
         Self(Arc::new(Node {
             args,
             children,

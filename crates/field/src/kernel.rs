@@ -68,8 +68,7 @@ impl<I: Simd> Packed<I> for Dual<Lanes<I>> {
 
     #[inline(always)]
     fn store(self, to: &mut [Block], lane: usize) {
-        self.value
-            .store(&mut to[0].0[lane..lane + Lanes::<I>::COUNT]);
+        self.value.store(&mut to[0].0[lane..lane + Lanes::<I>::COUNT]);
         for (component, block) in self.gradient.into_iter().zip(&mut to[1..4]) {
             component.store(&mut block.0[lane..lane + Lanes::<I>::COUNT]);
         }
@@ -167,11 +166,7 @@ pub struct CombineJob<'a> {
 }
 
 #[inline(always)]
-fn combine_loop<C: Combine, I: Simd, K: Packed<I>>(
-    token: I,
-    job: &mut CombineJob<'_>,
-    share: bool,
-) {
+fn combine_loop<C: Combine, I: Simd, K: Packed<I>>(token: I, job: &mut CombineJob<'_>, share: bool) {
     let CombineJob {
         b,
         constants,

@@ -8,8 +8,7 @@ use crate::compile::{Code, Derive, Op, inverse_of};
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Graph, Slots};
 use crate::kernel::{
-    CombineFn, CombineKernels, Dual2, Fold, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels,
-    affine,
+    CombineFn, CombineKernels, Dual2, Fold, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels, affine,
 };
 use crate::scalar::{Constants, Dual, Interval, Scalar};
 use crate::vector::Vec3;
@@ -65,10 +64,7 @@ impl Program {
         lipschitz: Option<f64>,
     ) -> Result<Self, BindError> {
         let double = derive(code, values, DVec3::ZERO)?;
-        let single = derive(code, values, origin)?
-            .iter()
-            .map(|&c| c as f32)
-            .collect();
+        let single = derive(code, values, origin)?.iter().map(|&c| c as f32).collect();
         Ok(Self {
             code: Arc::clone(code),
             single,
@@ -156,11 +152,7 @@ impl Program {
         let like = p.x;
         for op in &self.code.ops {
             match op {
-                Op::Affine {
-                    from,
-                    to,
-                    constants,
-                } => {
+                Op::Affine { from, to, constants } => {
                     let from = points[*from];
                     points[*to] = S::with_table(&self.double, constants, |table| {
                         affine(from, &Constants::new(like, table, 12))
@@ -175,15 +167,10 @@ impl Program {
                     out,
                     ..
                 } => {
-                    let at = S::with_table(&self.double, at, |table| {
-                        Constants::new(like, table, 3).get::<3>()
-                    });
+                    let at = S::with_table(&self.double, at, |table| Constants::new(like, table, 3).get::<3>());
                     let p = points[*point] - at.into();
                     let value = S::with_table(&self.double, constants, |slots| {
-                        S::primitive(&table.kernels)(
-                            p,
-                            &Constants::new(like, slots, constants.len()),
-                        )
+                        S::primitive(&table.kernels)(p, &Constants::new(like, slots, constants.len()))
                     });
                     values[*out] = match fold {
                         Fold::Set => value,
@@ -199,11 +186,7 @@ impl Program {
                 } => {
                     let (a, b) = (values[*a], values[*b]);
                     values[*out] = S::with_table(&self.double, constants, |slots| {
-                        S::combine(&table.kernels)(
-                            a,
-                            b,
-                            &Constants::new(like, slots, constants.len()),
-                        )
+                        S::combine(&table.kernels)(a, b, &Constants::new(like, slots, constants.len()))
                     });
                 }
                 Op::Modify {
@@ -213,16 +196,11 @@ impl Program {
                 } => {
                     let before = values[*value];
                     values[*value] = S::with_table(&self.double, constants, |slots| {
-                        S::modify(&table.kernels)(
-                            before,
-                            &Constants::new(like, slots, constants.len()),
-                        )
+                        S::modify(&table.kernels)(before, &Constants::new(like, slots, constants.len()))
                     });
                 }
                 Op::Scale { value, factor } => {
-                    let factor = S::with_table(&self.double, &(*factor..*factor + 1), |table| {
-                        like.constant(table, 0)
-                    });
+                    let factor = S::with_table(&self.double, &(*factor..*factor + 1), |table| like.constant(table, 0));
                     values[*value] = values[*value] * factor;
                 }
             }
@@ -243,11 +221,7 @@ fn derive(code: &Code, values: &[f64], origin: DVec3) -> Result<Vec<f64>, BindEr
                 }
                 constants[out.clone()].copy_from_slice(&own);
             }
-            Derive::Affine {
-                chain,
-                from_root,
-                out,
-            } => {
+            Derive::Affine { chain, from_root, out } => {
                 let (matrix, mut translation) = inverse_of(chain, values);
                 if *from_root {
                     translation += matrix * origin;
@@ -255,11 +229,7 @@ fn derive(code: &Code, values: &[f64], origin: DVec3) -> Result<Vec<f64>, BindEr
                 constants[out.start..out.start + 9].copy_from_slice(&matrix.to_cols_array());
                 constants[out.start + 9..out.end].copy_from_slice(&translation.to_array());
             }
-            Derive::Offset {
-                chain,
-                from_root,
-                out,
-            } => {
+            Derive::Offset { chain, from_root, out } => {
                 let (_, mut translation) = inverse_of(chain, values);
                 if *from_root {
                     translation += origin;
@@ -267,7 +237,7 @@ fn derive(code: &Code, values: &[f64], origin: DVec3) -> Result<Vec<f64>, BindEr
                 constants[out.clone()].copy_from_slice(&(-translation).to_array());
             }
             Derive::Factor { table, args, out } => {
-                constants[*out] = (table.factor)(&values[args.clone()])
+                constants[*out] = (table.factor)(&values[args.clone()]);
             }
         }
     }
@@ -279,11 +249,7 @@ trait Host: Scalar {
     fn primitive(kernels: &PrimitiveKernels) -> PrimitiveFn<Self>;
     fn combine(kernels: &CombineKernels) -> CombineFn<Self>;
     fn modify(kernels: &ModifyKernels) -> ModifyFn<Self>;
-    fn with_table<R>(
-        constants: &[f64],
-        range: &Range<usize>,
-        read: impl FnOnce(&Self::Table) -> R,
-    ) -> R;
+    fn with_table<R>(constants: &[f64], range: &Range<usize>, read: impl FnOnce(&Self::Table) -> R) -> R;
 }
 
 macro_rules! host {
@@ -320,11 +286,7 @@ impl Host for Expr<'_> {
         kernels.expr
     }
 
-    fn with_table<R>(
-        _constants: &[f64],
-        range: &Range<usize>,
-        read: impl FnOnce(&Slots) -> R,
-    ) -> R {
+    fn with_table<R>(_constants: &[f64], range: &Range<usize>, read: impl FnOnce(&Slots) -> R) -> R {
         read(&Slots(range.start as u32))
     }
 }

@@ -1,6 +1,6 @@
 //! The number type a formula is generic over.
 //!
-//! A formula is written once, as a function over [`Scalar`], and instantiated with plain `f64` ([`real`]), SIMD lanes
+//! A formula is written once, as a function over [`Scalar`], and instantiated with plain `f64`, SIMD lanes
 //! ([`Lanes`]), outward-rounded intervals ([`Interval`]), dual numbers ([`Dual`], nested for second derivatives) and an
 //! expression builder ([`crate::expr::Expr`]) that yields shader text.
 //!
@@ -60,36 +60,43 @@ pub trait Scalar:
     fn sqrt(self) -> Self;
 
     /// The absolute value; its derivative at 0 counts as +1.
+    #[inline(always)]
     fn abs(self) -> Self {
         Self::select(self.lt(self.lift(0.0)), -self, self)
     }
 
     /// The smaller one; `rhs` where they are equal or not comparable.
+    #[inline(always)]
     fn min(self, rhs: Self) -> Self {
         Self::select(self.lt(rhs), self, rhs)
     }
 
     /// The larger one; `rhs` where they are equal or not comparable.
+    #[inline(always)]
     fn max(self, rhs: Self) -> Self {
         Self::select(rhs.lt(self), self, rhs)
     }
 
     /// `self * self`; never negative in any number type.
+    #[inline(always)]
     fn square(self) -> Self {
         self * self
     }
 
     /// `sqrt(a^2 + b^2)`, with derivative 0 instead of 0/0 at the origin.
+    #[inline(always)]
     fn length2(a: Self, b: Self) -> Self {
         (a.square() + b.square()).sqrt()
     }
 
     /// `sqrt(a^2 + b^2 + c^2)`, with derivative 0 instead of 0/0 at the origin.
+    #[inline(always)]
     fn length3(a: Self, b: Self, c: Self) -> Self {
         (a.square() + b.square() + c.square()).sqrt()
     }
 
     /// `self` limited to `[low, high]`.
+    #[inline(always)]
     fn clamp(self, low: f64, high: f64) -> Self {
         self.max(self.lift(low)).min(self.lift(high))
     }

@@ -105,25 +105,13 @@ impl ParamKind {
         }
         let length = value.iter().map(|v| v * v).sum::<f64>().sqrt();
         match self {
-            Self::Length if value[0] < 0.0 => {
-                Some(format!("must not be negative, but is {}", value[0]))
-            }
-            Self::Positive if value[0] <= 0.0 => {
-                Some(format!("must be above 0, but is {}", value[0]))
-            }
-            Self::Factor if value[0] == 0.0 => {
-                Some("must not be 0: it would flatten the shape".into())
-            }
-            Self::Size if value.iter().any(|&v| v <= 0.0) => {
-                Some("must be above 0 in every direction".into())
-            }
+            Self::Length if value[0] < 0.0 => Some(format!("must not be negative, but is {}", value[0])),
+            Self::Positive if value[0] <= 0.0 => Some(format!("must be above 0, but is {}", value[0])),
+            Self::Factor if value[0] == 0.0 => Some("must not be 0: it would flatten the shape".into()),
+            Self::Size if value.iter().any(|&v| v <= 0.0) => Some("must be above 0 in every direction".into()),
             Self::Factors if value.contains(&0.0) => Some("must not be 0 in any direction".into()),
-            Self::Direction if length < SHORTEST_DIRECTION => {
-                Some("must not be the zero vector".into())
-            }
-            Self::Quaternion if length < SHORTEST_DIRECTION => {
-                Some("must not be the zero quaternion".into())
-            }
+            Self::Direction if length < SHORTEST_DIRECTION => Some("must not be the zero vector".into()),
+            Self::Quaternion if length < SHORTEST_DIRECTION => Some("must not be the zero quaternion".into()),
             Self::HalfSpaces => value.chunks(4).enumerate().find_map(|(i, plane)| {
                 (DVec3::new(plane[0], plane[1], plane[2]).length() < SHORTEST_DIRECTION)
                     .then(|| format!("entry {i} has a zero normal"))
@@ -148,12 +136,7 @@ impl Param {
     }
 
     /// A parameter with a default.
-    pub const fn optional(
-        name: &'static str,
-        kind: ParamKind,
-        default: &'static [f64],
-        about: &'static str,
-    ) -> Self {
+    pub const fn optional(name: &'static str, kind: ParamKind, default: &'static [f64], about: &'static str) -> Self {
         Self {
             name,
             kind,
@@ -202,7 +185,7 @@ pub trait Primitive: 'static {
     /// inside, as a distance along it. Only shapes that have one, and that profit, name it.
     const RAY: Option<RayFn> = None;
 
-    /// The formula.
+    /// The formula. Write `#[inline(always)]` before it: a formula that is not inlined loses the instruction set.
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S;
 }
 
@@ -236,7 +219,7 @@ pub trait Combine: 'static {
         (level, level)
     }
 
-    /// The formula.
+    /// The formula. Write `#[inline(always)]` before it: a formula that is not inlined loses the instruction set.
     fn combine<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S;
 
     /// The share of `b` in the result's material, in `[0, 1]`: the size of the partial derivative of
@@ -293,7 +276,7 @@ pub trait Modify: 'static {
     /// The level of the child whose inside covers that of the result at `level`; `None` if none does.
     fn level(args: &[f64], level: f64) -> Option<f64>;
 
-    /// The formula.
+    /// The formula. Write `#[inline(always)]` before it: a formula that is not inlined loses the instruction set.
     fn modify<S: Scalar>(value: S, c: &Constants<'_, S>) -> S;
 }
 
@@ -323,10 +306,7 @@ pub enum Kind {
 
 /// The functions of a [`Primitive`].
 #[derive(Debug)]
-#[allow(
-    missing_docs,
-    reason = "documented at the trait's items of the same names"
-)]
+#[allow(missing_docs, reason = "documented at the trait's items of the same names")]
 pub struct PrimitiveTable {
     pub check: fn(&[f64]) -> Result<(), String>,
     pub prepare: fn(&[f64]) -> Vec<f64>,
@@ -349,10 +329,7 @@ pub enum Hull {
 
 /// The functions of a [`Combine`].
 #[derive(Debug)]
-#[allow(
-    missing_docs,
-    reason = "documented at the trait's items of the same names"
-)]
+#[allow(missing_docs, reason = "documented at the trait's items of the same names")]
 pub struct CombineTable {
     pub is_minimum: bool,
     pub prepare: fn(&[f64]) -> Vec<f64>,
@@ -364,10 +341,7 @@ pub struct CombineTable {
 
 /// The functions of a [`Place`].
 #[derive(Debug)]
-#[allow(
-    missing_docs,
-    reason = "documented at the trait's items of the same names"
-)]
+#[allow(missing_docs, reason = "documented at the trait's items of the same names")]
 pub struct PlaceTable {
     pub is_rigid: bool,
     pub is_translation: bool,
@@ -378,10 +352,7 @@ pub struct PlaceTable {
 
 /// The functions of a [`Modify`].
 #[derive(Debug)]
-#[allow(
-    missing_docs,
-    reason = "documented at the trait's items of the same names"
-)]
+#[allow(missing_docs, reason = "documented at the trait's items of the same names")]
 pub struct ModifyTable {
     pub prepare: fn(&[f64]) -> Vec<f64>,
     pub contract: fn(&[f64], Contract) -> Result<Contract, String>,
@@ -460,10 +431,7 @@ impl Shape {
 
     /// Whether it stands along an axis the user chooses (its last parameter is then [`AXIS`]).
     pub fn is_axial(&self) -> bool {
-        self.about
-            .params
-            .last()
-            .is_some_and(|p| p.name == AXIS.name)
+        self.about.params.last().is_some_and(|p| p.name == AXIS.name)
     }
 
     /// Where the numbers of parameter `index` lie among the arguments of a node with `count` numbers in all.
@@ -471,16 +439,9 @@ impl Shape {
     /// # Panics
     /// If there is no such parameter.
     pub fn range(&self, index: usize, count: usize) -> std::ops::Range<usize> {
-        let start = self.about.params[..index]
-            .iter()
-            .map(|p| p.kind.width())
-            .sum();
+        let start = self.about.params[..index].iter().map(|p| p.kind.width()).sum();
         let kind = self.about.params[index].kind;
-        start..if kind.is_list() {
-            count
-        } else {
-            start + kind.width()
-        }
+        start..if kind.is_list() { count } else { start + kind.width() }
     }
 }
 

@@ -1,14 +1,14 @@
 //! All shapes, one file each.
 //!
-//! Generated from the files in this folder by `cargo xtask shapes`; a test keeps it fresh. To add a shape, write its file
-//! and run that command.
+//! Written by `cargo xtask shapes` from the files in the folder of the same name. To add a shape, write its file and run
+//! that command.
 
-pub mod r#box;
 pub mod capsule;
 pub mod complement;
 pub mod cone;
 pub mod convex_polyhedron;
 pub mod convex_polyhedron_bound;
+pub mod cuboid;
 pub mod cylinder;
 pub mod difference;
 pub mod ellipsoid;
@@ -35,12 +35,12 @@ pub mod translate;
 pub mod union;
 pub mod xor;
 
-pub use r#box::*;
 pub use capsule::*;
 pub use complement::*;
 pub use cone::*;
 pub use convex_polyhedron::*;
 pub use convex_polyhedron_bound::*;
+pub use cuboid::*;
 pub use cylinder::*;
 pub use difference::*;
 pub use ellipsoid::*;
@@ -70,12 +70,12 @@ use crate::shape::Shape;
 
 /// The descriptors of all shapes, by name.
 pub static ALL: &[&Shape] = &[
-    &BOX,
     &CAPSULE,
     &COMPLEMENT,
     &CONE,
     &CONVEX_POLYHEDRON,
     &CONVEX_POLYHEDRON_BOUND,
+    &BOX,
     &CYLINDER,
     &DIFFERENCE,
     &ELLIPSOID,

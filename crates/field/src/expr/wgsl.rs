@@ -18,11 +18,7 @@ pub fn function(name: &str, graph: &Graph, result: Expr<'_>) -> String {
     };
     let _ = writeln!(printer.text, "fn {name}(p: vec3<f32>) -> f32 {{");
     printer.block(None, 1);
-    let _ = writeln!(
-        printer.text,
-        "    return {};\n}}",
-        printer.operand(result.id())
-    );
+    let _ = writeln!(printer.text, "    return {};\n}}", printer.operand(result.id()));
     printer.text
 }
 
@@ -78,11 +74,7 @@ impl Printer {
                     }
                 }
                 Term::Length(a, b, None) => {
-                    format!(
-                        "length(vec2<f32>({}, {}))",
-                        self.operand(a),
-                        self.operand(b)
-                    )
+                    format!("length(vec2<f32>({}, {}))", self.operand(a), self.operand(b))
                 }
                 Term::Length(a, b, Some(c)) => {
                     format!(
@@ -127,10 +119,7 @@ impl Printer {
             let _ = writeln!(self.text, "{indent}    s{l}_{place} = n{l}_{place};");
         }
         let go_on = self.operand(this.go_on);
-        let _ = writeln!(
-            self.text,
-            "{indent}    if !({go_on}) {{ break; }}\n{indent}}}"
-        );
+        let _ = writeln!(self.text, "{indent}    if !({go_on}) {{ break; }}\n{indent}}}");
     }
 
     fn operand(&self, id: u32) -> String {

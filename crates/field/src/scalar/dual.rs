@@ -3,6 +3,11 @@
 //! `Dual<T>` is a scalar over any scalar, so `Dual<Lanes<_>>` is a batch of gradients and `Dual<Dual<f64>>` yields
 //! Hessians. At the ties of min, max and select a side is picked; at the origin of a length the derivative is 0.
 
+#![allow(
+    clippy::suspicious_arithmetic_impl,
+    reason = "the product and quotient rules use other operators"
+)]
+
 use super::Scalar;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -80,10 +80,7 @@ impl Interval {
     /// What both have in common. Both must be enclosures of one value, so that there is something.
     pub fn meet(self, other: Self) -> Self {
         let (lo, hi) = (self.lo.max(other.lo), self.hi.min(other.hi));
-        debug_assert!(
-            lo <= hi,
-            "two enclosures of one value don't meet: {self:?}, {other:?}"
-        );
+        debug_assert!(lo <= hi, "two enclosures of one value don't meet: {self:?}, {other:?}");
         if lo <= hi { Self { lo, hi } } else { self }
     }
 
@@ -125,12 +122,7 @@ impl Sub for Interval {
 impl Mul for Interval {
     type Output = Self;
     fn mul(self, rhs: Self) -> Self {
-        Self::outward_hull([
-            self.lo * rhs.lo,
-            self.lo * rhs.hi,
-            self.hi * rhs.lo,
-            self.hi * rhs.hi,
-        ])
+        Self::outward_hull([self.lo * rhs.lo, self.lo * rhs.hi, self.hi * rhs.lo, self.hi * rhs.hi])
     }
 }
 
@@ -140,12 +132,7 @@ impl Div for Interval {
         if rhs.contains(0.0) {
             return Self::ENTIRE;
         }
-        Self::outward_hull([
-            self.lo / rhs.lo,
-            self.lo / rhs.hi,
-            self.hi / rhs.lo,
-            self.hi / rhs.hi,
-        ])
+        Self::outward_hull([self.lo / rhs.lo, self.lo / rhs.hi, self.hi / rhs.lo, self.hi / rhs.hi])
     }
 }
 

@@ -11,11 +11,7 @@ pub static CAPSULE: Shape = Shape::primitive::<Capsule>();
 
 /// A rod with round ends: all points within `radius` of the segment between two points.
 #[track_caller]
-pub fn capsule(
-    from: impl Into<Triple>,
-    to: impl Into<Triple>,
-    radius: impl Into<Value>,
-) -> Form<Capsule> {
+pub fn capsule(from: impl Into<Triple>, to: impl Into<Triple>, radius: impl Into<Value>) -> Form<Capsule> {
     let ([a, b, c], [d, e, f]) = (from.into().0, to.into().0);
     Form::new(&CAPSULE, [a, b, c, d, e, f, radius.into()])
 }
@@ -46,9 +42,7 @@ impl Primitive for Capsule {
         } else {
             0.0
         };
-        vec![
-            from.x, from.y, from.z, along.x, along.y, along.z, inverse, args[6],
-        ]
+        vec![from.x, from.y, from.z, along.x, along.y, along.z, inverse, args[6]]
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
@@ -56,6 +50,7 @@ impl Primitive for Capsule {
         direction.dot(from).max(direction.dot(to)) + (args[6] + level) * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [ax, ay, az, bx, by, bz, inverse, radius] = c.get();
         segment(p, vec3(ax, ay, az), vec3(bx, by, bz), inverse) - radius

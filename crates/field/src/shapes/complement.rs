@@ -33,10 +33,7 @@ impl Modify for Complement {
         if child.signed {
             Ok(child.complement())
         } else {
-            Err(
-                "a sheet has no inside; give it a thickness first, for instance with `offset`"
-                    .into(),
-            )
+            Err("a sheet has no inside; give it a thickness first, for instance with `offset`".into())
         }
     }
 
@@ -44,6 +41,7 @@ impl Modify for Complement {
         None
     }
 
+    #[inline(always)]
     fn modify<S: Scalar>(value: S, _c: &Constants<'_, S>) -> S {
         -value
     }

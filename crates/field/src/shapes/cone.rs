@@ -16,11 +16,7 @@ pub static CONE: Shape = Shape::primitive::<Cone>();
 
 /// A cone, its lower end with radius `bottom`, its upper end with radius `top`, its middle at the origin.
 #[track_caller]
-pub fn cone(
-    bottom: impl Into<Value>,
-    top: impl Into<Value>,
-    height: impl Into<Value>,
-) -> Form<Cone> {
+pub fn cone(bottom: impl Into<Value>, top: impl Into<Value>, height: impl Into<Value>) -> Form<Cone> {
     Form::new(&CONE, [bottom.into(), top.into(), height.into()])
 }
 
@@ -29,22 +25,14 @@ impl Primitive for Cone {
         name: "cone",
         summary: "A cone or frustum with flat ends, its middle at the origin.",
         params: &[
-            Param::required(
-                "bottom",
-                ParamKind::Length,
-                "Radius of the lower end; 0 for a tip.",
-            ),
+            Param::required("bottom", ParamKind::Length, "Radius of the lower end; 0 for a tip."),
             Param::optional(
                 "top",
                 ParamKind::Length,
                 &[0.0],
                 "Radius of the upper end; 0 for a tip.",
             ),
-            Param::required(
-                "height",
-                ParamKind::Positive,
-                "Full height, from end to end.",
-            ),
+            Param::required("height", ParamKind::Positive, "Full height, from end to end."),
             AXIS,
         ],
         elsewhere: &["capped cone", "frustum", "sdCappedCone"],
@@ -82,6 +70,7 @@ impl Primitive for Cone {
         (top * across + rise).max(bottom * across - rise) + level * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         // (nr, nz) is the outward normal of the slanted side, which starts at the lower rim.
         let [bottom, top, half_height, nr, nz, inverse_slant] = c.get();

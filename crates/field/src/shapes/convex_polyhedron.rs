@@ -18,9 +18,7 @@ pub static CONVEX_POLYHEDRON: Shape = Shape::primitive::<ConvexPolyhedron>();
 /// The solid behind all these planes, each given by its outward normal and its distance from the origin. Together they
 /// must enclose it.
 #[track_caller]
-pub fn convex_polyhedron<V: Into<Value>>(
-    half_spaces: impl IntoIterator<Item = ([V; 3], V)>,
-) -> Form<ConvexPolyhedron> {
+pub fn convex_polyhedron<V: Into<Value>>(half_spaces: impl IntoIterator<Item = ([V; 3], V)>) -> Form<ConvexPolyhedron> {
     Form::new(&CONVEX_POLYHEDRON, half_space_values(half_spaces))
 }
 
@@ -58,21 +56,16 @@ pub(crate) fn half_spaces(args: &[f64]) -> Vec<HalfSpace> {
 
 /// The edges of the solid behind all planes; an edge may be infinitely long.
 pub(crate) fn edges(planes: &[HalfSpace]) -> Vec<(DVec3, DVec3)> {
-    let size = planes
-        .iter()
-        .map(|(_, d)| d.abs())
-        .fold(f64::MIN_POSITIVE, f64::max);
+    let size = planes.iter().map(|(_, d)| d.abs()).fold(f64::MIN_POSITIVE, f64::max);
     // Of parallel planes only the innermost one bounds the solid.
     let is_needed = |i: usize| {
         let (normal, offset) = planes[i];
-        !planes.iter().enumerate().any(|(j, &(other, d))| {
-            j != i && other.distance(normal) < TINY && (d < offset || (d == offset && j < i))
-        })
+        !planes
+            .iter()
+            .enumerate()
+            .any(|(j, &(other, d))| j != i && other.distance(normal) < TINY && (d < offset || (d == offset && j < i)))
     };
-    let needed: Vec<HalfSpace> = (0..planes.len())
-        .filter(|&i| is_needed(i))
-        .map(|i| planes[i])
-        .collect();
+    let needed: Vec<HalfSpace> = (0..planes.len()).filter(|&i| is_needed(i)).map(|i| planes[i]).collect();
     let mut edges = Vec::new();
     for (i, &(a, da)) in needed.iter().enumerate() {
         for &(b, db) in &needed[..i] {
@@ -125,15 +118,15 @@ impl Primitive for ConvexPolyhedron {
     fn check(args: &[f64]) -> Result<(), String> {
         let planes = half_spaces(args);
         if planes.len() > MAX_PLANES {
-            return Err(format!(
-                "a convex polyhedron may have at most {MAX_PLANES} half-spaces"
-            ));
+            return Err(format!("a convex polyhedron may have at most {MAX_PLANES} half-spaces"));
         }
         let edges = edges(&planes);
         if planes.len() < 4 || edges.iter().any(|(a, b)| !a.is_finite() || !b.is_finite()) {
-            return Err("the half-spaces do not enclose the polyhedron on all sides; add the missing ones, or use \
+            return Err(
+                "the half-spaces do not enclose the polyhedron on all sides; add the missing ones, or use \
                         `convex_polyhedron_bound`"
-                .into());
+                    .into(),
+            );
         }
         if edges.len() < 6 {
             return Err("the half-spaces have no solid in common".into());
@@ -143,10 +136,7 @@ impl Primitive for ConvexPolyhedron {
 
     fn prepare(args: &[f64]) -> Vec<f64> {
         let planes = half_spaces(args);
-        let mut constants: Vec<f64> = planes
-            .iter()
-            .flat_map(|(n, d)| [n.x, n.y, n.z, *d])
-            .collect();
+        let mut constants: Vec<f64> = planes.iter().flat_map(|(n, d)| [n.x, n.y, n.z, *d]).collect();
         for (a, _) in &planes {
             constants.extend(planes.iter().map(|(b, _)| a.dot(*b)));
         }
@@ -154,9 +144,7 @@ impl Primitive for ConvexPolyhedron {
         let stored = 3 * planes.len() - 6;
         for (from, to) in edges
             .iter()
-            .chain(std::iter::repeat(
-                edges.last().unwrap_or(&(DVec3::ZERO, DVec3::X)),
-            ))
+            .chain(std::iter::repeat(edges.last().unwrap_or(&(DVec3::ZERO, DVec3::X))))
             .take(stored)
         {
             let along = *to - *from;
@@ -174,15 +162,14 @@ impl Primitive for ConvexPolyhedron {
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
-        let corners = edges(&half_spaces(args))
-            .into_iter()
-            .flat_map(|(a, b)| [a, b]);
+        let corners = edges(&half_spaces(args)).into_iter().flat_map(|(a, b)| [a, b]);
         corners
             .map(|corner| direction.dot(corner))
             .fold(f64::NEG_INFINITY, f64::max)
             + level * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let planes = plane_count(c.count());
         let mut inside = height(p, c, 0);

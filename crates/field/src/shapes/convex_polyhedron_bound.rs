@@ -44,10 +44,7 @@ impl Primitive for ConvexPolyhedronBound {
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
-        let moved: Vec<(DVec3, f64)> = half_spaces(args)
-            .into_iter()
-            .map(|(n, d)| (n, d + level))
-            .collect();
+        let moved: Vec<(DVec3, f64)> = half_spaces(args).into_iter().map(|(n, d)| (n, d + level)).collect();
         let along_a_plane = args
             .chunks_exact(4)
             .map(|h| support_of_plane(h, direction, level))
@@ -63,6 +60,7 @@ impl Primitive for ConvexPolyhedronBound {
             .min(along_a_plane)
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let mut highest = height(p, c, 0);
         for i in 1..c.count() / 4 {

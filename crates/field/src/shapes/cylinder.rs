@@ -30,16 +30,8 @@ impl Primitive for Cylinder {
         name: "cylinder",
         summary: "A cylinder with flat ends, its middle at the origin.",
         params: &[
-            Param::required(
-                "radius",
-                ParamKind::Positive,
-                "Distance from the axis to the side.",
-            ),
-            Param::required(
-                "height",
-                ParamKind::Positive,
-                "Full height, from end to end.",
-            ),
+            Param::required("radius", ParamKind::Positive, "Distance from the axis to the side."),
+            Param::required("height", ParamKind::Positive, "Full height, from end to end."),
             Param::optional(
                 "round",
                 ParamKind::Length,
@@ -74,11 +66,10 @@ impl Primitive for Cylinder {
             unreachable!("four numbers")
         };
         let across = direction.x.hypot(direction.y);
-        (radius - round) * across
-            + (height / 2.0 - round) * direction.z.abs()
-            + (round + level) * direction.length()
+        (radius - round) * across + (height / 2.0 - round) * direction.z.abs() + (round + level) * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [radius, half_height, round] = c.get();
         let side = S::length2(p.x, p.y) - radius;

@@ -82,6 +82,7 @@ impl Primitive for Ellipsoid {
         (DVec3::from_slice(args) * direction).length() + level * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [ax, ay, az, ex, ey, ez, smallest_squared, off_plane] = c.get();
         let (x, y, z) = (
@@ -103,10 +104,7 @@ impl Primitive for Ellipsoid {
                 let n_squared = ux + uy + uz;
                 let residual = n_squared.sqrt() - one;
                 let slope = ux * ix + uy * iy + uz * iz;
-                (
-                    [s + residual * n_squared / slope],
-                    one.lift(RESIDUAL).lt(residual),
-                )
+                ([s + residual * n_squared / slope], one.lift(RESIDUAL).lt(residual))
             },
         );
         let normal = S::length3(x / (s + ex), y / (s + ey), z / (s + ez));

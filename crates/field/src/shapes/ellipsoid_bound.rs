@@ -40,6 +40,7 @@ impl Primitive for EllipsoidBound {
         (radii * direction).length() * (1.0 + level / radii.min_element())
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [x, y, z, smallest] = c.get();
         (S::length3(p.x * x, p.y * y, p.z * z) - p.x.lift(1.0)) * smallest

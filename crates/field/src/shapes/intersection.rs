@@ -31,10 +31,12 @@ impl Combine for Intersection {
         Ok(common(a, b))
     }
 
+    #[inline(always)]
     fn combine<S: Scalar>(a: S, b: S, _c: &Constants<'_, S>) -> S {
         a.max(b)
     }
 
+    #[inline(always)]
     fn share<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
         let [keep] = c.get();
         S::select(a.lt(b), -keep + 1.0, a.lift(0.0))

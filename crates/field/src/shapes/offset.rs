@@ -24,11 +24,7 @@ impl Modify for Offsetting {
     const ABOUT: About = About {
         name: "offset",
         summary: "Grows a shape by a distance on all sides, with rounded edges, or shrinks it.",
-        params: &[Param::required(
-            "by",
-            ParamKind::Number,
-            "How far; negative to shrink.",
-        )],
+        params: &[Param::required("by", ParamKind::Number, "How far; negative to shrink.")],
         elsewhere: &["round", "dilate", "erode", "expand"],
         example: r#"{ "offset": { "by": 0.2, "shape": { "box": { "size": 1 } } } }"#,
     };
@@ -56,11 +52,7 @@ impl Modify for Offsetting {
     }
 
     fn warning(args: &[f64], child: Contract) -> Option<String> {
-        let side = if args[0] > 0.0 {
-            child.outside
-        } else {
-            child.inside
-        };
+        let side = if args[0] > 0.0 { child.outside } else { child.inside };
         (args[0] != 0.0 && side != Metric::Exact)
             .then(|| "the field under this offset is only a bound, so that its edges move by another distance".into())
     }
@@ -69,6 +61,7 @@ impl Modify for Offsetting {
         Some(level + args[0])
     }
 
+    #[inline(always)]
     fn modify<S: Scalar>(value: S, c: &Constants<'_, S>) -> S {
         let [by] = c.get();
         value - by

@@ -52,10 +52,7 @@ const SAME_DIRECTION: f64 = 1e-12;
 pub(crate) fn support_of_plane(args: &[f64], direction: DVec3, level: f64) -> f64 {
     let normal = DVec3::from_slice(args).normalize();
     let length = direction.length();
-    if length > 0.0
-        && normal.cross(direction / length).length() < SAME_DIRECTION
-        && normal.dot(direction) > 0.0
-    {
+    if length > 0.0 && normal.cross(direction / length).length() < SAME_DIRECTION && normal.dot(direction) > 0.0 {
         (args[3] + level) * length
     } else {
         f64::INFINITY
@@ -91,6 +88,7 @@ impl Primitive for Plane {
         support_of_plane(args, direction, level)
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [x, y, z, offset] = c.get();
         p.dot(vec3(x, y, z)) - offset

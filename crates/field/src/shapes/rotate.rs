@@ -16,11 +16,7 @@ pub trait Rotate: Into<Field> {
     #[track_caller]
     fn rotate(self, axis: impl Into<Triple>, degrees: f64) -> Field {
         let [x, y, z] = axis.into().0;
-        Field::new(
-            &ROTATE,
-            [x, y, z, degrees.to_radians().into()],
-            [self.into()],
-        )
+        Field::new(&ROTATE, [x, y, z, degrees.to_radians().into()], [self.into()])
     }
 }
 

@@ -41,8 +41,6 @@ impl Place for EulerRotation {
         let &[x, y, z] = args else {
             unreachable!("three numbers")
         };
-        DAffine3::from_mat3(
-            DMat3::from_rotation_z(z) * DMat3::from_rotation_y(y) * DMat3::from_rotation_x(x),
-        )
+        DAffine3::from_mat3(DMat3::from_rotation_z(z) * DMat3::from_rotation_y(y) * DMat3::from_rotation_x(x))
     }
 }

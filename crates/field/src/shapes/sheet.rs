@@ -55,6 +55,7 @@ impl Primitive for Sheet {
         support_of_plane(args, direction, level).min(support_of_plane(&back, direction, level))
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [x, y, z, offset] = c.get();
         (p.dot(vec3(x, y, z)) - offset).abs()

@@ -52,15 +52,15 @@ impl Modify for Shell {
     }
 
     fn warning(_args: &[f64], child: Contract) -> Option<String> {
-        (child.outside.max(child.inside) != Metric::Exact).then(|| {
-            "the field under this shell is only a bound, so that the wall's thickness varies".into()
-        })
+        (child.outside.max(child.inside) != Metric::Exact)
+            .then(|| "the field under this shell is only a bound, so that the wall's thickness varies".into())
     }
 
     fn level(args: &[f64], level: f64) -> Option<f64> {
         Some(level + args[0] / 2.0)
     }
 
+    #[inline(always)]
     fn modify<S: Scalar>(value: S, c: &Constants<'_, S>) -> S {
         let [half] = c.get();
         value.abs() - half

@@ -14,15 +14,8 @@ pub static SMOOTH_DIFFERENCE: Shape = Shape::combine::<SmoothDifference>();
 
 /// The first shape without all the others, with the cut's edges worn smoothly. `k` is the visible size of the blend.
 #[track_caller]
-pub fn smooth_difference<F: Into<Field>>(
-    k: impl Into<Value>,
-    shapes: impl IntoIterator<Item = F>,
-) -> Field {
-    Field::new(
-        &SMOOTH_DIFFERENCE,
-        [k.into()],
-        shapes.into_iter().map(Into::into),
-    )
+pub fn smooth_difference<F: Into<Field>>(k: impl Into<Value>, shapes: impl IntoIterator<Item = F>) -> Field {
+    Field::new(&SMOOTH_DIFFERENCE, [k.into()], shapes.into_iter().map(Into::into))
 }
 
 impl Combine for SmoothDifference {
@@ -43,15 +36,19 @@ impl Combine for SmoothDifference {
 
     fn contract(_args: &[f64], a: Contract, b: Contract) -> Result<Contract, String> {
         if !a.signed {
-            return Err("a sheet has no inside to blend with; give it a thickness first, for instance with `offset`".into());
+            return Err(
+                "a sheet has no inside to blend with; give it a thickness first, for instance with `offset`".into(),
+            );
         }
         Ok(common(a, subtrahend(b)?).at_most_bound())
     }
 
+    #[inline(always)]
     fn combine<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
         -polynomial::smooth_min(-a, b, c)
     }
 
+    #[inline(always)]
     fn share<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
         polynomial::share(-a, b, c) * (-c.at(KEEP) + 1.0)
     }

@@ -12,15 +12,8 @@ pub static SMOOTH_UNION: Shape = Shape::combine::<SmoothUnion>();
 
 /// Everything that lies in any of the shapes, with the seams filled smoothly. `k` is the visible size of the blend.
 #[track_caller]
-pub fn smooth_union<F: Into<Field>>(
-    k: impl Into<Value>,
-    shapes: impl IntoIterator<Item = F>,
-) -> Field {
-    Field::new(
-        &SMOOTH_UNION,
-        [k.into()],
-        shapes.into_iter().map(Into::into),
-    )
+pub fn smooth_union<F: Into<Field>>(k: impl Into<Value>, shapes: impl IntoIterator<Item = F>) -> Field {
+    Field::new(&SMOOTH_UNION, [k.into()], shapes.into_iter().map(Into::into))
 }
 
 impl Combine for SmoothUnion {
@@ -41,7 +34,9 @@ impl Combine for SmoothUnion {
 
     fn contract(_args: &[f64], a: Contract, b: Contract) -> Result<Contract, String> {
         if !(a.signed && b.signed) {
-            return Err("a sheet has no inside to blend with; give it a thickness first, for instance with `offset`".into());
+            return Err(
+                "a sheet has no inside to blend with; give it a thickness first, for instance with `offset`".into(),
+            );
         }
         Ok(a.worse_of(b).at_most_bound())
     }
@@ -51,10 +46,12 @@ impl Combine for SmoothUnion {
         (level, level)
     }
 
+    #[inline(always)]
     fn combine<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
         polynomial::smooth_min(a, b, c)
     }
 
+    #[inline(always)]
     fn share<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
         polynomial::share(a, b, c)
     }

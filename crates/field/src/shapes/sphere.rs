@@ -32,6 +32,7 @@ impl Primitive for Sphere {
         (args[0] + level) * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [radius] = c.get();
         p.length() - radius

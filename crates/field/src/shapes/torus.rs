@@ -35,11 +35,7 @@ impl Primitive for Torus {
     fn contract(args: &[f64]) -> Contract {
         let overlaps = args[1] > args[0];
         Contract {
-            inside: if overlaps {
-                Metric::Bound
-            } else {
-                Metric::Exact
-            },
+            inside: if overlaps { Metric::Bound } else { Metric::Exact },
             ..Contract::EXACT
         }
     }
@@ -48,6 +44,7 @@ impl Primitive for Torus {
         args[0] * direction.x.hypot(direction.y) + (args[1] + level) * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [major, minor] = c.get();
         S::length2(S::length2(p.x, p.y) - major, p.z) - minor

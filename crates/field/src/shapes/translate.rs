@@ -24,11 +24,7 @@ impl Place for Translation {
     const ABOUT: About = About {
         name: "translate",
         summary: "Moves a shape.",
-        params: &[Param::required(
-            "by",
-            ParamKind::Vector,
-            "The displacement.",
-        )],
+        params: &[Param::required("by", ParamKind::Vector, "The displacement.")],
         elsewhere: &["move", "at"],
         example: r#"{ "translate": { "by": [0, 0, 1], "shape": { "sphere": { "radius": 0.6 } } } }"#,
     };

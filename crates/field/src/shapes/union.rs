@@ -35,10 +35,12 @@ impl Combine for Union {
         })
     }
 
+    #[inline(always)]
     fn combine<S: Scalar>(a: S, b: S, _c: &Constants<'_, S>) -> S {
         a.min(b)
     }
 
+    #[inline(always)]
     fn share<S: Scalar>(a: S, b: S, _c: &Constants<'_, S>) -> S {
         S::select(b.lt(a), a.lift(1.0), a.lift(0.0))
     }

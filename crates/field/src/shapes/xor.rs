@@ -33,10 +33,12 @@ impl Combine for Xor {
         Ok(a.worse_of(b).at_most_bound())
     }
 
+    #[inline(always)]
     fn combine<S: Scalar>(a: S, b: S, _c: &Constants<'_, S>) -> S {
         a.min(b).max(-a.max(b))
     }
 
+    #[inline(always)]
     fn share<S: Scalar>(a: S, b: S, _c: &Constants<'_, S>) -> S {
         let (zero, one) = (a.lift(0.0), a.lift(1.0));
         let from_common = a.min(b).lt(-a.max(b));

@@ -28,11 +28,7 @@ impl Primitive for Cuboid {
         name: "box",
         summary: "A box with its middle at the origin.",
         params: &[
-            Param::required(
-                "size",
-                ParamKind::Size,
-                "Full edge lengths along x, y and z.",
-            ),
+            Param::required("size", ParamKind::Size, "Full edge lengths along x, y and z."),
             Param::optional(
                 "round",
                 ParamKind::Length,
@@ -66,6 +62,7 @@ impl Primitive for Cuboid {
         core.dot(direction.abs()) + (args[3] + level) * direction.length()
     }
 
+    #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [x, y, z, round] = c.get();
         let q = p.abs() - vec3(x, y, z);

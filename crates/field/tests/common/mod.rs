@@ -1,0 +1,226 @@
+//! Random fields, points and an independent membership test.
+#![allow(dead_code, reason = "each test file uses a part")]
+
+use freikugel_field::shape::Kind;
+use freikugel_field::{Arity, Field, Origin, ParamKind, Shape, Value, analyse, shapes};
+use glam::{DMat3, DQuat, DVec3};
+
+/// A small seeded generator (xorshift64*).
+pub(crate) struct Random(u64);
+
+impl Random {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    pub(crate) fn unit(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    pub(crate) fn range(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    pub(crate) fn below(&mut self, count: usize) -> usize {
+        (self.unit() * count as f64) as usize
+    }
+
+    pub(crate) fn point(&mut self, reach: f64) -> DVec3 {
+        DVec3::new(
+            self.range(-reach, reach),
+            self.range(-reach, reach),
+            self.range(-reach, reach),
+        )
+    }
+
+    pub(crate) fn direction(&mut self) -> DVec3 {
+        loop {
+            let v = self.point(1.0);
+            if v.length() > 0.1 && v.length() < 1.0 {
+                return v.normalize();
+            }
+        }
+    }
+}
+
+/// Random sound arguments for a kind of parameter.
+fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
+    let mut push = |number: f64| out.push(number.into());
+    let sign = if random.unit() < 0.5 { -1.0 } else { 1.0 };
+    match kind {
+        ParamKind::Number => push(random.range(-0.5, 0.5)),
+        ParamKind::Length => push(if random.unit() < 0.3 {
+            0.0
+        } else {
+            random.range(0.0, 0.4)
+        }),
+        ParamKind::Positive => push(random.range(0.2, 1.2)),
+        ParamKind::Factor => push(sign * random.range(0.5, 2.0)),
+        ParamKind::Angle => push(random.range(-4.0, 4.0)),
+        ParamKind::Choice(names) => push(random.below(names.len()) as f64),
+        ParamKind::Flag => push(random.below(2) as f64),
+        ParamKind::Vector => (0..3).for_each(|_| push(random.range(-1.0, 1.0))),
+        ParamKind::Direction => random.direction().to_array().into_iter().for_each(push),
+        ParamKind::Size => (0..3).for_each(|_| push(random.range(0.3, 2.0))),
+        ParamKind::Factors => (0..3).for_each(|_| push(sign * random.range(0.5, 2.0))),
+        ParamKind::Angles => (0..3).for_each(|_| push(random.range(-4.0, 4.0))),
+        ParamKind::Quaternion => (0..4).for_each(|_| push(random.range(-1.0, 1.0))),
+        ParamKind::HalfSpaces => {
+            let tilt = DMat3::from_quat(DQuat::from_axis_angle(random.direction(), random.range(0.0, 3.0)));
+            let axes = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
+            let more = random.below(5);
+            let tilted = axes.map(|axis| tilt * axis);
+            let others: Vec<DVec3> = (0..more).map(|_| random.direction()).collect();
+            for normal in tilted.into_iter().chain(others) {
+                normal.to_array().into_iter().for_each(&mut push);
+                push(random.range(0.4, 1.0));
+            }
+        }
+    }
+}
+
+/// A random sound call of `shape`, with children of depth below `depth`.
+pub(crate) fn call(shape: &'static Shape, depth: u32, random: &mut Random) -> Field {
+    for _ in 0..1000 {
+        let mut args = Vec::new();
+        for param in shape.about.params {
+            arguments(param.kind, random, &mut args);
+        }
+        let children: Vec<Field> = match shape.arity() {
+            Arity::None => Vec::new(),
+            Arity::One => vec![tree(depth, random)],
+            Arity::Many => (0..2 + random.below(2)).map(|_| tree(depth, random)).collect(),
+        };
+        let material = matches!(shape.kind, Kind::Paint).then(|| freikugel_field::MaterialId(random.below(3) as u32));
+        let field = Field::with_origin(shape, args, children, material, Origin::Document(0));
+        if analyse(&field).0.is_some() {
+            return field;
+        }
+    }
+    panic!("no sound call of {} found", shape.about.name);
+}
+
+/// A random sound field with at most `depth` operators above a primitive.
+pub(crate) fn tree(depth: u32, random: &mut Random) -> Field {
+    let fits = |shape: &&&Shape| depth > 0 || shape.arity() == Arity::None;
+    let choices: Vec<_> = shapes::ALL.iter().filter(fits).collect();
+    let shape = choices[random.below(choices.len())];
+    call(shape, depth.saturating_sub(1), random)
+}
+
+/// Fields that exercise every shape: several random calls of each, over primitives.
+pub(crate) fn every_shape(calls: u64) -> impl Iterator<Item = (&'static str, u64, Field)> {
+    shapes::ALL.iter().flat_map(move |shape| {
+        (0..calls).map(move |seed| (shape.about.name, seed, call(shape, 0, &mut Random::new(seed + 1))))
+    })
+}
+
+/// Whether a point lies in a field's shape, from set logic and each primitive's own definition, never from its distance.
+/// `None` where the answer depends on a blend, or there is no inside.
+pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
+    let node = field.node();
+    let args = node.numbers();
+    let mut children = node.children.iter();
+    let p = match node.axis() {
+        Some(0) => DVec3::new(p.y, p.z, p.x),
+        Some(1) => DVec3::new(p.z, p.x, p.y),
+        _ => p,
+    };
+    let across = p.x.hypot(p.y);
+    Some(match (node.shape.about.name, args.as_slice()) {
+        ("sphere", [r]) => p.length_squared() < r * r,
+        ("plane", [x, y, z, d]) => DVec3::new(*x, *y, *z).normalize().dot(p) < *d,
+        ("sheet", _) => return None,
+        ("box", [x, y, z, round]) => {
+            let core = DVec3::new(*x, *y, *z) / 2.0 - *round;
+            let nearest = p.clamp(-core, core);
+            p == nearest || p.distance(nearest) < *round
+        }
+        ("torus", [major, minor, _]) => {
+            let on_circle = DVec3::new(p.x, p.y, 0.0).normalize_or(DVec3::X) * *major;
+            p.distance(on_circle) < *minor
+        }
+        ("cylinder", [radius, height, round, _]) => {
+            let (side, end) = (across - (radius - round), p.z.abs() - (height / 2.0 - round));
+            if side <= 0.0 || end <= 0.0 {
+                side < *round && end < *round
+            } else {
+                side.hypot(end) < *round
+            }
+        }
+        ("cone", [bottom, top, height, _]) => {
+            let share = p.z / height + 0.5;
+            (0.0..1.0).contains(&share) && across < bottom + (top - bottom) * share
+        }
+        ("capsule", [a, b, c, d, e, f, r]) => {
+            let (from, to) = (DVec3::new(*a, *b, *c), DVec3::new(*d, *e, *f));
+            // The squared distance along the segment has one minimum: close in on it from both sides.
+            let (mut low, mut high) = (0.0, 1.0);
+            let at = |share: f64| p.distance_squared(from.lerp(to, share));
+            for _ in 0..60 {
+                let third = (high - low) / 3.0;
+                if at(low + third) < at(high - third) {
+                    high -= third;
+                } else {
+                    low += third;
+                }
+            }
+            at(low) < r * r
+        }
+        ("ellipsoid" | "ellipsoid_bound", [x, y, z]) => (p / DVec3::new(*x, *y, *z)).length_squared() < 1.0,
+        ("convex_polyhedron" | "convex_polyhedron_bound", planes) => {
+            planes.chunks(4).all(|h| DVec3::from_slice(h).normalize().dot(p) < h[3])
+        }
+        ("union", _) => all(children.map(|c| contains(c, p)))?.into_iter().any(|c| c),
+        ("intersection", _) => all(children.map(|c| contains(c, p)))?.into_iter().all(|c| c),
+        ("difference", _) => {
+            let inside = all(children.map(|c| contains(c, p)))?;
+            inside[0] && !inside[1..].iter().any(|&c| c)
+        }
+        ("xor", _) => {
+            all(children.map(|c| contains(c, p)))?
+                .into_iter()
+                .filter(|&c| c)
+                .count()
+                % 2
+                == 1
+        }
+        ("complement", _) => !contains(children.next()?, p)?,
+        ("paint", _) => contains(children.next()?, p)?,
+        ("translate", [x, y, z]) => contains(children.next()?, p - DVec3::new(*x, *y, *z))?,
+        ("rotate", [x, y, z, angle]) => {
+            let turn = DQuat::from_axis_angle(DVec3::new(*x, *y, *z).normalize(), -angle);
+            contains(children.next()?, turn * p)?
+        }
+        ("rotate_euler", [x, y, z]) => {
+            // The inverse of Rz Ry Rx, one turn after another.
+            let p = DMat3::from_rotation_z(-z) * p;
+            let p = DMat3::from_rotation_y(-y) * p;
+            contains(children.next()?, DMat3::from_rotation_x(-x) * p)?
+        }
+        ("rotate_quaternion", [x, y, z, w]) => {
+            let q = DQuat::from_xyzw(*x, *y, *z, *w).normalize();
+            contains(children.next()?, q.conjugate() * p)?
+        }
+        ("reflect", [x, y, z, d]) => {
+            let n = DVec3::new(*x, *y, *z).normalize();
+            contains(children.next()?, p - n * (2.0 * (n.dot(p) - d)))?
+        }
+        ("scale", [a]) => contains(children.next()?, p / *a)?,
+        ("stretch", [x, y, z]) => contains(children.next()?, p / DVec3::new(*x, *y, *z))?,
+        ("offset" | "shell" | "smooth_union" | "smooth_intersection" | "smooth_difference", _) => {
+            return None;
+        }
+        (name, args) => panic!(
+            "say in the membership test what lies inside {name} with {} numbers",
+            args.len()
+        ),
+    })
+}
+
+fn all(answers: impl Iterator<Item = Option<bool>>) -> Option<Vec<bool>> {
+    answers.collect()
+}

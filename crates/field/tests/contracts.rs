@@ -1,0 +1,293 @@
+//! Attempts to refute what contracts promise, and to show them lazy.
+
+mod common;
+
+use common::{Random, contains, every_shape, tree};
+use freikugel_field::{Extent, Field, Metric, Program, Structure, analyse, extent};
+use glam::DVec3;
+
+const CALLS: u64 = 8;
+
+fn program(field: &Field) -> Program {
+    Structure::compile(std::slice::from_ref(field))
+        .expect("a sound field")
+        .program(DVec3::ZERO)
+}
+
+/// Every shape over primitives, and random trees.
+fn fields() -> impl Iterator<Item = (String, Field)> {
+    let shapes = every_shape(CALLS).map(|(name, seed, field)| (format!("{name} {seed}"), field));
+    let trees = (0..150).map(|seed| (format!("tree {seed}"), tree(4, &mut Random::new(seed + 1000))));
+    shapes.chain(trees)
+}
+
+#[test]
+fn the_lipschitz_constant_is_never_exceeded() {
+    for (name, field) in fields() {
+        let lipschitz = analyse(&field)
+            .0
+            .expect("sound")
+            .contract
+            .lipschitz
+            .expect("all constants are known so far");
+        let program = program(&field);
+        let mut random = Random::new(7);
+        for i in 0..400 {
+            let p = random.point(2.0);
+            // From a few units in the last place to metres.
+            let length = 10.0_f64.powf(-9.0 + f64::from(i % 10));
+            let q = p + random.direction() * length;
+            let (slope, rounding) = ((program.value(p) - program.value(q)).abs(), 1e-13);
+            assert!(
+                slope <= lipschitz * p.distance(q) * (1.0 + 1e-9) + rounding,
+                "{name} from {p} to {q}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_lipschitz_constant_is_not_lazy() {
+    for (name, field) in fields() {
+        let lipschitz = analyse(&field)
+            .0
+            .expect("sound")
+            .contract
+            .lipschitz
+            .expect("all constants are known so far");
+        let program = program(&field);
+        let mut random = Random::new(8);
+        let largest = (0..400)
+            .map(|_| program.gradient(random.point(2.0)).1.length())
+            .fold(0.0, f64::max);
+        // An operator knows its child's constant, not in which direction the child is steepest: a plane may stand so that
+        // stretching flattens it. Trees may hide their steepest part altogether.
+        let flat =
+            ["plane", "sheet"].contains(&field.node().children.first().map_or("", |c| c.node().shape.about.name));
+        let excused = name.starts_with("tree") || (name.starts_with("stretch") && flat);
+        assert!(
+            excused || lipschitz <= 1.25 * largest,
+            "{name}: {lipschitz} for {largest}"
+        );
+    }
+}
+
+#[test]
+fn the_ball_of_the_bound_is_empty_and_that_of_an_exact_distance_touches() {
+    for (name, field) in fields() {
+        let contract = analyse(&field).0.expect("sound").contract;
+        let program = program(&field);
+        let mut random = Random::new(9);
+        for _ in 0..40 {
+            let p = random.point(2.0);
+            let (value, gradient) = program.gradient(p);
+            let Some(here) = contains(&field, p) else {
+                break;
+            };
+            // Membership of a segment is sampled, hence the margin.
+            let margin = 1e-4;
+            if value.abs() < 10.0 * margin {
+                continue;
+            }
+            for _ in 0..60 {
+                let q = p + random.direction() * (value.abs() - margin) * random.unit().cbrt();
+                assert_eq!(contains(&field, q), Some(here), "{name}: {q} within {value} of {p}");
+            }
+            let metric = if value > 0.0 { contract.outside } else { contract.inside };
+            if metric == Metric::Exact && (gradient.length() - 1.0).abs() < 1e-6 {
+                let beyond = p - gradient * (value + margin * value.signum());
+                let touches = contains(&field, beyond) == Some(!here)
+                    // Past a thin edge the other side may already be over: look around the foot point as well.
+                    || (0..4000).any(|_| {
+                        let near = p - gradient * value + random.direction() * margin;
+                        contains(&field, near) == Some(!here)
+                    });
+                assert!(touches, "{name}: nothing at distance {value} of {p} from {field:#?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn an_exact_distance_equals_the_nearest_of_many_surface_points() {
+    for (name, field) in every_shape(3).map(|(name, seed, field)| (format!("{name} {seed}"), field)) {
+        let contract = analyse(&field).0.expect("sound").contract;
+        if contract.outside != Metric::Exact || contains(&field, DVec3::ZERO).is_none() {
+            continue;
+        }
+        let program = program(&field);
+        let mut random = Random::new(10);
+        for _ in 0..4 {
+            let p = random.point(2.0);
+            let value = program.value(p);
+            if value < 0.1 {
+                continue;
+            }
+            // Along directions that narrow down on the best one, the first change of membership by bisection.
+            let reach = |direction: DVec3| -> f64 {
+                let (mut near, mut far) = (0.0, f64::INFINITY);
+                for i in 1..=60 {
+                    let t = value * (0.9 + 0.2 * f64::from(i) / 60.0);
+                    if contains(&field, p + direction * t) == Some(true) {
+                        far = t;
+                        break;
+                    }
+                    near = t;
+                }
+                while far.is_finite() && far - near > 1e-7 {
+                    let middle = 0.5 * (near + far);
+                    if contains(&field, p + direction * middle) == Some(true) {
+                        far = middle;
+                    } else {
+                        near = middle;
+                    }
+                }
+                far
+            };
+            let mut best = (f64::INFINITY, DVec3::X);
+            let mut spread = 2.0;
+            for round in 0..12 {
+                let count = if round == 0 { 1000 } else { 80 };
+                for _ in 0..count {
+                    let direction = if round == 0 || !best.0.is_finite() {
+                        random.direction()
+                    } else {
+                        (best.1 + random.direction() * spread).normalize()
+                    };
+                    let t = reach(direction);
+                    if t < best.0 {
+                        best = (t, direction);
+                    }
+                }
+                spread *= 0.45;
+            }
+            if best.0.is_finite() {
+                assert!(
+                    (best.0 - value).abs() < 2e-3 * value,
+                    "{name} at {p}: {value}, but {}",
+                    best.0
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_extent_holds_the_shape() {
+    for (name, field) in fields() {
+        let program = program(&field);
+        let mut random = Random::new(11);
+        let Extent::Finite(aabb) = extent(&field) else {
+            continue;
+        };
+        for _ in 0..2000 {
+            let p = random.point(3.0);
+            if program.value(p) < 0.0 {
+                let slack = 1e-9;
+                assert!(
+                    p.cmpge(aabb.min - slack).all() && p.cmple(aabb.max + slack).all(),
+                    "{name}: {p} outside of {aabb:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_extent_of_primitives_under_maps_is_tight() {
+    let placed = [
+        "translate",
+        "rotate",
+        "rotate_euler",
+        "rotate_quaternion",
+        "reflect",
+        "scale",
+        "stretch",
+    ];
+    for (name, seed, field) in every_shape(4) {
+        let is_primitive = field.node().children.is_empty();
+        if !is_primitive && !placed.contains(&name) && name != "paint" {
+            continue;
+        }
+        let Extent::Finite(aabb) = extent(&field) else {
+            continue;
+        };
+        let program = program(&field);
+        let mut random = Random::new(12);
+        for axis in 0..3 {
+            for sign in [-1.0, 1.0] {
+                // Climb along the axis through inside points with shrinking random steps.
+                let score = |p: DVec3| p[axis] * sign;
+                let mut best: Option<DVec3> = None;
+                for _ in 0..20_000 {
+                    let p = aabb.min + aabb.size() * DVec3::new(random.unit(), random.unit(), random.unit());
+                    if program.value(p) < 0.0 && best.is_none_or(|b| score(p) > score(b)) {
+                        best = Some(p);
+                    }
+                }
+                let mut step = aabb.size().max_element() * 0.2;
+                for _ in 0..80 {
+                    for _ in 0..60 {
+                        let Some(b) = best else { break };
+                        let p = b + random.direction() * step;
+                        if program.value(p) < 0.0 && score(p) > score(b) {
+                            best = Some(p);
+                        }
+                    }
+                    step *= 0.9;
+                }
+                let best = best.unwrap_or_else(|| panic!("{name} {seed} is empty"));
+                let face = if sign > 0.0 { aabb.max[axis] } else { aabb.min[axis] };
+                assert!(
+                    (face - best[axis]).abs() < 0.01 * aabb.size()[axis],
+                    "{name} {seed}, axis {axis}: {face} for {}",
+                    best[axis]
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn metrics_are_as_claimed() {
+    use freikugel_field::shapes::*;
+    let metric = |field: Field| {
+        let contract = analyse(&field).0.expect("sound").contract;
+        (contract.outside, contract.inside, contract.signed)
+    };
+    let (a, b) = (|| sphere(1.0), || cuboid([1.0, 1.0, 1.0]));
+    assert_eq!(metric(a().into()), (Metric::Exact, Metric::Exact, true));
+    assert_eq!(metric(a() | b()), (Metric::Exact, Metric::Bound, true));
+    assert_eq!(metric(a() & b()), (Metric::Bound, Metric::Exact, true));
+    assert_eq!(metric(a() - b()), (Metric::Bound, Metric::Exact, true));
+    assert_eq!(metric(-(a() | b())), (Metric::Bound, Metric::Exact, true));
+    assert_eq!(metric(a() - (b() & a())), (Metric::Bound, Metric::Bound, true));
+    assert_eq!(
+        metric(smooth_union(0.1, [a().at([0.0; 3]), b().at([0.0; 3])])),
+        (Metric::Bound, Metric::Bound, true)
+    );
+    assert_eq!(
+        metric(a().at([1.0, 2.0, 3.0]).scale(2.0)),
+        (Metric::Exact, Metric::Exact, true)
+    );
+    assert_eq!(
+        metric(a().stretch([1.0, 2.0, 1.0])),
+        (Metric::Bound, Metric::Bound, true)
+    );
+    assert_eq!(
+        metric(a().stretch([2.0, -2.0, 2.0])),
+        (Metric::Exact, Metric::Exact, true)
+    );
+    assert_eq!(metric(b().offset(0.1)), (Metric::Exact, Metric::Bound, true));
+    assert_eq!(metric(b().offset(-0.1)), (Metric::Bound, Metric::Exact, true));
+    assert_eq!(metric(b().shell(0.1)), (Metric::Exact, Metric::Bound, true));
+    assert_eq!(
+        metric(sheet([0.0, 0.0, 1.0]).into()),
+        (Metric::Exact, Metric::Exact, false)
+    );
+    assert_eq!(
+        metric(sheet([0.0, 0.0, 1.0]).offset(0.1)),
+        (Metric::Exact, Metric::Bound, true)
+    );
+    assert_eq!(metric(torus(0.5, 0.7).into()), (Metric::Exact, Metric::Bound, true));
+}

@@ -1,0 +1,163 @@
+//! The inlining guard: a helper that is not inlined into a kernel is compiled for the baseline instruction set and takes
+//! the whole kernel down with it. Such a kernel is no faster, mostly far slower, on AVX2 than on SSE2.
+
+mod common;
+
+use common::{Random, call};
+use freikugel_field::kernel::{BATCH, Block, CombineJob, Fold, ModifyJob, PrimitiveJob};
+use freikugel_field::simd::{self, Level};
+use freikugel_field::{Evaluator, Kind, Points, Shape, Structure, shapes};
+use glam::DVec3;
+use std::time::{Duration, Instant};
+
+/// Twice the width gives up to twice the speed; this much is demanded.
+const GAIN: f64 = 1.5;
+
+/// Calls in one measurement: enough that the clock's resolution does not matter.
+const CALLS: usize = 40;
+
+/// The best of so many measurements is free of interruptions on a busy machine.
+const RUNS: usize = 25;
+
+/// A kernel that does not reach the gain is measured again so many times before it counts as a failure.
+const TRIES: usize = 8;
+
+/// Something that runs one kernel once, on an instruction set.
+type Work = Box<dyn FnMut(Level)>;
+
+/// Every lane kernel of a shape.
+fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
+    let mut random = Random::new(4);
+    let mut blocks = |count: usize| -> Vec<Block> {
+        let mut blocks = vec![Block::default(); count];
+        blocks
+            .iter_mut()
+            .for_each(|b| b.0.iter_mut().for_each(|v| *v = random.range(-2.0, 2.0) as f32));
+        blocks
+    };
+    let field = call(shape, 0, &mut Random::new(3));
+    let args = field.node().numbers();
+    let single = |constants: Vec<f64>| constants.into_iter().map(|c| c as f32).collect::<Vec<f32>>();
+    let count = BATCH;
+    match &shape.kind {
+        Kind::Primitive(table) => [
+            ("values", table.kernels.values, 1),
+            ("gradients", table.kernels.gradients, 4),
+        ]
+        .into_iter()
+        .map(|(name, kernel, components)| {
+            let (points, mut out) = (blocks(3 * components), blocks(components));
+            let constants = single((table.prepare)(&args));
+            let work: Work = Box::new(move |level| {
+                let (at, fold) = (&[0.1, 0.2, 0.3], Fold::Set);
+                let (points, constants, out) = (&points, &constants, &mut out);
+                kernel(
+                    level,
+                    &mut PrimitiveJob {
+                        points,
+                        at,
+                        constants,
+                        fold,
+                        out,
+                        count,
+                    },
+                );
+            });
+            (name, work)
+        })
+        .collect(),
+        Kind::Combine(table) => [
+            ("values", table.kernels.values, 1),
+            ("gradients", table.kernels.gradients, 4),
+            ("shares", table.kernels.shares, 1),
+        ]
+        .into_iter()
+        .map(|(name, kernel, components)| {
+            let (b, mut out) = (blocks(components), blocks(components));
+            let constants = single((table.prepare)(&args));
+            let work: Work = Box::new(move |level| {
+                kernel(
+                    level,
+                    &mut CombineJob {
+                        b: &b,
+                        constants: &constants,
+                        out: &mut out,
+                        count,
+                    },
+                );
+            });
+            (name, work)
+        })
+        .collect(),
+        Kind::Modify(table) => [
+            ("values", table.kernels.values, 1),
+            ("gradients", table.kernels.gradients, 4),
+        ]
+        .into_iter()
+        .map(|(name, kernel, components)| {
+            let mut out = blocks(components);
+            let constants = single((table.prepare)(&args));
+            let work: Work = Box::new(move |level| {
+                kernel(
+                    level,
+                    &mut ModifyJob {
+                        constants: &constants,
+                        out: &mut out,
+                        count,
+                    },
+                );
+            });
+            (name, work)
+        })
+        .collect(),
+        Kind::Place(_) | Kind::Paint => Vec::new(),
+    }
+}
+
+/// The affine map has one kernel for all placing shapes, measured through a program of several maps.
+fn affine() -> Work {
+    let many = (0..8).map(|i| call(&shapes::ROTATE, 0, &mut Random::new(i)));
+    let structure = Structure::compile(&many.collect::<Vec<_>>()).expect("sound fields");
+    let program = structure.program(DVec3::ZERO);
+    Box::new(move |level| {
+        let (x, mut values) = ([0.5; BATCH], [0.0; BATCH]);
+        Evaluator::with_level(&program, level).values(Points { x: &x, y: &x, z: &x }, &mut values);
+    })
+}
+
+#[test]
+fn every_kernel_gains_from_wider_vectors() {
+    let levels = simd::available();
+    let [narrow, wide, ..] = levels[..] else {
+        eprintln!("skipped: this machine has one instruction set only");
+        return;
+    };
+    let of_shapes = shapes::ALL.iter().flat_map(|shape| {
+        kernels(shape)
+            .into_iter()
+            .map(|(kind, work)| (format!("{} {kind}", shape.about.name), work))
+    });
+    let mut failures = Vec::new();
+    for (name, mut work) in of_shapes.chain([("affine maps".to_owned(), affine())]) {
+        let mut gain: f64 = 0.0;
+        for _ in 0..TRIES {
+            let mut best = [Duration::MAX; 2];
+            for _ in 0..RUNS {
+                for (level, best) in [narrow, wide].into_iter().zip(&mut best) {
+                    let start = Instant::now();
+                    (0..CALLS).for_each(|_| work(level));
+                    *best = (*best).min(start.elapsed());
+                }
+            }
+            gain = gain.max(best[0].as_secs_f64() / best[1].as_secs_f64());
+            if gain >= GAIN {
+                break;
+            }
+        }
+        println!("{name:36} {gain:.2}");
+        if gain < GAIN {
+            failures.push(format!("{name} gains only {gain:.2}"));
+        }
+    }
+    assert!(failures.is_empty(), "not inlined: {failures:#?}");
+}

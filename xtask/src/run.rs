@@ -1,0 +1,101 @@
+//! Running other programs, and the chores that are no more than that.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What went wrong, as a sentence.
+pub(crate) type Result<T = ()> = std::result::Result<T, String>;
+
+/// The folder of the workspace.
+pub(crate) fn root() -> PathBuf {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    own.parent().expect("xtask lies in the workspace").to_owned()
+}
+
+/// Runs a program in `folder`, showing the command and its output.
+pub(crate) fn run(folder: &Path, program: &str, args: &[&str]) -> Result {
+    run_with(folder, program, args, &[])
+}
+
+/// Runs a program with additional environment variables.
+pub(crate) fn run_with(folder: &Path, program: &str, args: &[&str], variables: &[(&str, &str)]) -> Result {
+    eprintln!("+ {program} {}", args.join(" "));
+    let status = Command::new(program)
+        .args(args)
+        .envs(variables.iter().copied())
+        .current_dir(folder)
+        .status()
+        .map_err(|e| format!("can't run {program}: {e}"))?;
+    if status.success() {
+        Ok(())
+    } else {
+        Err(format!("{program} {} failed ({status})", args.join(" ")))
+    }
+}
+
+/// What a program prints.
+pub(crate) fn output(folder: &Path, program: &str, args: &[&str]) -> Result<String> {
+    eprintln!("+ {program} {}", args.join(" "));
+    let output = Command::new(program)
+        .args(args)
+        .current_dir(folder)
+        .output()
+        .map_err(|e| format!("can't run {program}: {e}"))?;
+    if !output.status.success() {
+        let errors = String::from_utf8_lossy(&output.stderr);
+        return Err(format!(
+            "{program} {} failed ({})\n{errors}",
+            args.join(" "),
+            output.status
+        ));
+    }
+    String::from_utf8(output.stdout).map_err(|e| format!("{program} printed no text: {e}"))
+}
+
+/// Where the schema of scene files is kept.
+pub(crate) const SCHEMA: &str = "schema/scene.schema.json";
+
+/// Writes the schema of scene files.
+pub(crate) fn schema(root: &Path) -> Result {
+    let text = output(root, "cargo", &["run", "--quiet", "-p", "freikugel", "--", "schema"])?;
+    let path = root.join(SCHEMA);
+    std::fs::create_dir_all(path.parent().expect("a file in a folder")).map_err(|e| e.to_string())?;
+    std::fs::write(&path, text).map_err(|e| format!("can't write {}: {e}", path.display()))
+}
+
+/// Renders every scene into a picture of the gallery.
+pub(crate) fn gallery(root: &Path) -> Result {
+    run(root, "cargo", &["build", "--release", "-p", "freikugel"])?;
+    let program = root.join("target/release/freikugel");
+    for scene in scenes(&root.join("scenes"))? {
+        let below = scene
+            .strip_prefix(root.join("scenes"))
+            .expect("found below it")
+            .with_extension("png");
+        let picture = root.join("gallery").join(below);
+        std::fs::create_dir_all(picture.parent().expect("a file in a folder")).map_err(|e| e.to_string())?;
+        let (scene, picture) = (scene.display().to_string(), picture.display().to_string());
+        run(
+            root,
+            &program.display().to_string(),
+            &["render", &scene, "-o", &picture],
+        )?;
+    }
+    Ok(())
+}
+
+/// All scene files below a folder, in order.
+pub(crate) fn scenes(folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    let entries = std::fs::read_dir(folder).map_err(|e| format!("can't read {}: {e}", folder.display()))?;
+    for entry in entries {
+        let path = entry.map_err(|e| e.to_string())?.path();
+        if path.is_dir() {
+            found.extend(scenes(&path)?);
+        } else if path.extension().is_some_and(|e| e == "json") {
+            found.push(path);
+        }
+    }
+    found.sort();
+    Ok(found)
+}
