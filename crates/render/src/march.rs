@@ -145,7 +145,11 @@ impl March {
             self.locate(count);
             let [x, y, z] = &self.point;
             field.values(
-                Points { x: &x[..count], y: &y[..count], z: &z[..count] },
+                Points {
+                    x: &x[..count],
+                    y: &y[..count],
+                    z: &z[..count],
+                },
                 &mut self.value[..count],
             );
             evaluations += count as u64;
@@ -180,9 +184,8 @@ impl March {
         let (steps, moved) = (&mut self.steps[..count], &mut self.moved[..count]);
         let mut going = 0;
         for ray in 0..count {
-            let goes = (value[ray] >= base[ray] + slope[ray] * t[ray])
-                & (t[ray] < end[ray])
-                & (steps[ray] < pace.max_steps);
+            let goes =
+                (value[ray] >= base[ray] + slope[ray] * t[ray]) & (t[ray] < end[ray]) & (steps[ray] < pace.max_steps);
             moved[ray] = goes;
             t[ray] += if goes { value[ray] * factor } else { 0.0 };
             steps[ray] += u32::from(goes);
@@ -216,7 +219,11 @@ impl March {
             let ratio = least / sharpness[ray];
             let safe = (clearance - t[ray] * ratio) / (1.0 + ratio);
             let is_steady = here >= before[ray] * STEADY;
-            let short = if is_steady { clearance } else { clearance * SHORTEST_STEP };
+            let short = if is_steady {
+                clearance
+            } else {
+                clearance * SHORTEST_STEP
+            };
             let step = if safe > short { safe } else { short };
             factor[ray] = if goes { least } else { factor[ray] };
             before[ray] = if goes { here } else { before[ray] };
@@ -245,8 +252,19 @@ impl March {
             } else {
                 Fate::Exhausted
             };
-            let factor = if fate == Fate::Hit || factor < NEGLIGIBLE { 0.0 } else { factor };
-            ends.push(End { id: self.id[ray], fate, t, value, steps: self.steps[ray], factor });
+            let factor = if fate == Fate::Hit || factor < NEGLIGIBLE {
+                0.0
+            } else {
+                factor
+            };
+            ends.push(End {
+                id: self.id[ray],
+                fate,
+                t,
+                value,
+                steps: self.steps[ray],
+                factor,
+            });
         }
         self.truncate(kept);
     }
@@ -268,7 +286,18 @@ impl March {
     }
 
     fn numbers(&mut self) -> impl Iterator<Item = &mut Vec<f32>> {
-        let Self { origin, direction, t, end, base, slope, sharpness, factor, before, .. } = self;
+        let Self {
+            origin,
+            direction,
+            t,
+            end,
+            base,
+            slope,
+            sharpness,
+            factor,
+            before,
+            ..
+        } = self;
         origin
             .iter_mut()
             .chain(direction)

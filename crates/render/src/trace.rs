@@ -169,7 +169,13 @@ impl<'f> Tracer<'f> {
         if start.span[1] > 0.0 {
             self.march.push(&start);
         }
-        self.rays.push(CameraRay { ray, exact, begin, start, steps: 0 });
+        self.rays.push(CameraRay {
+            ray,
+            exact,
+            begin,
+            start,
+            steps: 0,
+        });
         self.stats.rays.camera += 1;
     }
 
@@ -207,7 +213,8 @@ impl<'f> Tracer<'f> {
                     }
                 };
                 if lands {
-                    self.cloud.push(add_scaled(ray.start.origin, end.t, ray.start.direction));
+                    self.cloud
+                        .push(add_scaled(ray.start.origin, end.t, ray.start.direction));
                 }
                 lands
             });
@@ -220,13 +227,22 @@ impl<'f> Tracer<'f> {
                 let limit = start.tolerance[0] + start.tolerance[1] * end.t;
                 if end.fate == Fate::Hit && end.value > FALSE_HIT * limit * in_values {
                     start.tolerance = start.tolerance.map(|number| number * in_values);
-                    self.march.push(&Start { span: [end.t, start.span[1]], steps: end.steps, ..*start });
+                    self.march.push(&Start {
+                        span: [end.t, start.span[1]],
+                        steps: end.steps,
+                        ..*start
+                    });
                 } else {
                     if end.t == 0.0 && end.value < -limit {
                         self.stats.inside += 1;
                     }
                     let position = self.cloud.point_at(index);
-                    self.landings.push(Landing { ray: end.id, t: end.t, position, gradient });
+                    self.landings.push(Landing {
+                        ray: end.id,
+                        t: end.t,
+                        position,
+                        gradient,
+                    });
                 }
             }
             if self.march.is_empty() {
@@ -256,9 +272,12 @@ impl<'f> Tracer<'f> {
             let CameraRay { ray, begin, start, .. } = &self.rays[landing.ray as usize];
             let share = |region: usize| self.shares.of(region)[index];
             let main = match asks_for_shares {
-                true => (1..paints.len()).fold(0, |best, region| {
-                    if share(region) > share(best) { region } else { best }
-                }),
+                true => (1..paints.len()).fold(
+                    0,
+                    |best, region| {
+                        if share(region) > share(best) { region } else { best }
+                    },
+                ),
                 false => 0,
             };
             let viewer = start.direction.map(|x| -x);
@@ -273,7 +292,12 @@ impl<'f> Tracer<'f> {
             let distance = begin + f64::from(landing.t);
             let offset = length(landing.position);
             let uncertainty = frame.tolerance.at(distance, f64::from(offset))[0] as f32;
-            let footprint = Footprint { width: frame.width_at(distance), normal, viewer, uncertainty };
+            let footprint = Footprint {
+                width: frame.width_at(distance),
+                normal,
+                viewer,
+                uncertainty,
+            };
             let point = frame.origin + DVec3::from(landing.position.map(f64::from));
             let mut surface = Surface::of(paints[main].material, point, &footprint);
             if asks_for_shares {
@@ -314,7 +338,9 @@ impl<'f> Tracer<'f> {
             self.cloud.clear();
             let first = self.hits.len();
             for (id, CameraRay { ray, exact, start, .. }) in self.rays.iter().enumerate() {
-                let Some((_, distance)) = exact.filter(|(object, _)| *object == index) else { continue };
+                let Some((_, distance)) = exact.filter(|(object, _)| *object == index) else {
+                    continue;
+                };
                 let point = ray.origin + ray.direction * distance;
                 let position = (point - frame.origin).as_vec3().to_array();
                 self.cloud.push(position);
@@ -385,11 +411,19 @@ impl Cloud {
     }
 
     fn gradient_at(&self, index: usize) -> Triple {
-        [self.gradient[0][index], self.gradient[1][index], self.gradient[2][index]]
+        [
+            self.gradient[0][index],
+            self.gradient[1][index],
+            self.gradient[2][index],
+        ]
     }
 
     fn points(point: &[Vec<f32>; 3]) -> Points<'_> {
-        Points { x: &point[0], y: &point[1], z: &point[2] }
+        Points {
+            x: &point[0],
+            y: &point[1],
+            z: &point[2],
+        }
     }
 
     /// Computes the field at the points and returns how many there are.

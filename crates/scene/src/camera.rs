@@ -66,9 +66,7 @@ impl Camera {
     #[must_use]
     pub fn orthographic(self, height: impl Argument<f64>) -> Self {
         Self {
-            projection: Projection::Orthographic {
-                height: height.value(),
-            },
+            projection: Projection::Orthographic { height: height.value() },
             ..self
         }
     }

@@ -72,10 +72,7 @@ impl Notation<MaterialId> for MaterialNotation {
         let hint = match closest(&name.value, names.iter().copied()) {
             Some(guess) => format!("did you mean `{guess}`?"),
             None if names.is_empty() => "define it under `materials`".into(),
-            None => format!(
-                "the scene has {}",
-                listed(names.into_iter().take(MOST_LISTED))
-            ),
+            None => format!("the scene has {}", listed(names.into_iter().take(MOST_LISTED))),
         };
         let message = format!("there is no material {}", quote(&name.value));
         reader.error(span(value), message, Some(hint));
@@ -109,15 +106,9 @@ impl Notation<Vec<(String, Material)>> for MaterialsNotation {
         for prop in &object.properties {
             let name = prop.name.as_str();
             if name.is_empty() {
-                reader.error(
-                    name_span(prop),
-                    "the name of a material must not be empty",
-                    None,
-                );
+                reader.error(name_span(prop), "the name of a material must not be empty", None);
             }
-            let material = reader.labelled(quote(name), |reader| {
-                RecordNotation.read(reader, &prop.value)
-            });
+            let material = reader.labelled(quote(name), |reader| RecordNotation.read(reader, &prop.value));
             let index = u32::try_from(materials.len()).unwrap_or(u32::MAX);
             if names.insert(name.to_string(), index).is_some() {
                 reader.duplicate(prop);
@@ -130,9 +121,7 @@ impl Notation<Vec<(String, Material)>> for MaterialsNotation {
     }
 
     fn write(&self, value: &Vec<(String, Material)>) -> Option<Json> {
-        let entry = |(name, material): &(String, Material)| {
-            Some((name.clone(), RecordNotation.write(material)?))
-        };
+        let entry = |(name, material): &(String, Material)| Some((name.clone(), RecordNotation.write(material)?));
         Some(Json::Object(value.iter().filter_map(entry).collect()))
     }
 
@@ -159,11 +148,7 @@ impl Notation<Vec<Object>> for ObjectsNotation {
             reader.error(span(value), "the scene has no objects", Some(hint.into()));
         }
         let mut names = HashSet::new();
-        for written in array
-            .elements
-            .iter()
-            .filter_map(|element| element.as_object())
-        {
+        for written in array.elements.iter().filter_map(|element| element.as_object()) {
             let Some(name) = written.get_string("name") else {
                 continue;
             };

@@ -107,9 +107,7 @@ fn analyse_roots(reader: &mut Reader) {
             let Some(node) = reader.nodes.get(index as usize) else {
                 continue;
             };
-            let param = fault
-                .param
-                .and_then(|param| node.params.get(param)?.clone());
+            let param = fault.param.and_then(|param| node.params.get(param)?.clone());
             let place = param.unwrap_or_else(|| node.name.clone());
             reader.report(fault.severity, place, fault.message, fault.hint);
         }

@@ -112,24 +112,14 @@ impl RecordSchema<'_> {
     }
 
     /// Adds a key with its notation and its default, if it need not be there.
-    pub(crate) fn key<T>(
-        &mut self,
-        key: &'static str,
-        about: &str,
-        notation: &dyn Notation<T>,
-        default: Option<&T>,
-    ) {
-        let need = default.map_or(Need::Required, |default| {
-            Need::Optional(notation.write(default))
-        });
+    pub(crate) fn key<T>(&mut self, key: &'static str, about: &str, notation: &dyn Notation<T>, default: Option<&T>) {
+        let need = default.map_or(Need::Required, |default| Need::Optional(notation.write(default)));
         let schema = notation.schema(self.definitions);
         self.object.key(key, about, schema, need);
     }
 
     /// At most one of two keys may be there.
     pub(crate) fn exclude(&mut self, one: &'static str, other: &'static str) {
-        self.object
-            .exclusions
-            .push(json!({ "required": [one, other] }));
+        self.object.exclusions.push(json!({ "required": [one, other] }));
     }
 }

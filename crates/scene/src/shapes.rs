@@ -4,9 +4,7 @@
 //! on stand under `shape` or `shapes`. A function of many shapes that needs no parameters may have the list for a value.
 //! Which functions there are, nothing here knows but [`freikugel_field::shapes::ALL`].
 
-use crate::notation::{
-    Notation, direction_schema, index_of, named_direction, numbers_schema, tidy,
-};
+use crate::notation::{Notation, direction_schema, index_of, named_direction, numbers_schema, tidy};
 use crate::object::MaterialNotation;
 use crate::reader::{Entries, NodePlace, Reader, name_span, span};
 use crate::schema::{Definitions, Need, ObjectSchema};
@@ -29,10 +27,7 @@ const CHILDREN: &str = "shapes";
 const MATERIAL: &str = "material";
 
 fn by_name(name: &str) -> Option<&'static Shape> {
-    shapes::ALL
-        .iter()
-        .copied()
-        .find(|shape| shape.about.name == name)
+    shapes::ALL.iter().copied().find(|shape| shape.about.name == name)
 }
 
 impl Notation<Field> for ShapeNotation {
@@ -78,11 +73,7 @@ fn node(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
         match (by_name(key), found) {
             (Some(shape), None) => found = Some((shape, prop)),
             (Some(_), Some((first, _))) => {
-                let message = format!(
-                    "{} stands in the same object as `{}`",
-                    quote(key),
-                    first.about.name
-                );
+                let message = format!("{} stands in the same object as `{}`", quote(key), first.about.name);
                 reader.error(
                     name_span(prop),
                     message,
@@ -124,29 +115,19 @@ fn stranger(reader: &mut Reader, prop: &ObjectProp<'_>, beside: Option<&Shape>) 
         return reader.error(place, message, Some(hint.into()));
     }
     let known = shapes::ALL.iter().map(|shape| shape.about.name);
-    let elsewhere = shapes::ALL
-        .iter()
-        .find(|shape| shape.about.elsewhere.contains(&key));
+    let elsewhere = shapes::ALL.iter().find(|shape| shape.about.elsewhere.contains(&key));
     let hint = match (elsewhere, closest(key, known.clone())) {
         (Some(shape), _) => format!("here it is called `{}`", shape.about.name),
         (None, Some(guess)) => format!("did you mean `{guess}`?"),
         (None, None) => {
-            let more = if known.len() > MOST_LISTED {
-                ", ..."
-            } else {
-                ""
-            };
+            let more = if known.len() > MOST_LISTED { ", ..." } else { "" };
             format!(
                 "there are {}{more}",
                 known.take(MOST_LISTED).collect::<Vec<_>>().join(", ")
             )
         }
     };
-    reader.error(
-        place,
-        format!("there is no shape {}", quote(key)),
-        Some(hint),
-    );
+    reader.error(place, format!("there is no shape {}", quote(key)), Some(hint));
 }
 
 /// As many names of shapes as a hint can hold and still be read.
@@ -165,22 +146,12 @@ fn form() -> String {
 fn for_instance(shape: &Shape) -> String {
     format!(
         "for instance {}",
-        shape
-            .about
-            .example
-            .split_whitespace()
-            .collect::<Vec<_>>()
-            .join(" ")
+        shape.about.example.split_whitespace().collect::<Vec<_>>().join(" ")
     )
 }
 
 /// A call of `shape` with the parameters and shapes in `value`.
-fn call(
-    reader: &mut Reader,
-    shape: &'static Shape,
-    index: usize,
-    value: &Written<'_>,
-) -> Option<Field> {
+fn call(reader: &mut Reader, shape: &'static Shape, index: usize, value: &Written<'_>) -> Option<Field> {
     let about = &shape.about;
     let arity = shape.arity();
     let is_paint = matches!(shape.kind, Kind::Paint);
@@ -191,18 +162,10 @@ fn call(
 
     if let (Arity::Many, Written::Array(_)) = (arity, value) {
         let children = list(reader, value);
-        let missing: Vec<_> = about
-            .params
-            .iter()
-            .filter(|param| param.default.is_none())
-            .collect();
+        let missing: Vec<_> = about.params.iter().filter(|param| param.default.is_none()).collect();
         for param in &missing {
             let message = format!("{what} needs `{}`", param.name);
-            reader.error(
-                reader.nodes[index].name.clone(),
-                message,
-                Some(for_instance(shape)),
-            );
+            reader.error(reader.nodes[index].name.clone(), message, Some(for_instance(shape)));
         }
         let args = missing.is_empty().then(Vec::new);
         return finish(reader, shape, index, args, Some(None), children);
@@ -223,9 +186,7 @@ fn call(
             .require(reader, MATERIAL, "the name of a material")
             .and_then(|value| {
                 reader
-                    .labelled(quote(MATERIAL), |reader| {
-                        MaterialNotation.read(reader, value)
-                    })
+                    .labelled(quote(MATERIAL), |reader| MaterialNotation.read(reader, value))
                     .map(Some)
             }),
         false => Some(None),
@@ -314,22 +275,11 @@ fn finish(
     };
     let args = args.into_iter().map(Value::Literal);
     let origin = Origin::Document(u32::try_from(index).unwrap_or(u32::MAX));
-    Some(Field::with_origin(
-        shape,
-        args,
-        children.fields,
-        material,
-        origin,
-    ))
+    Some(Field::with_origin(shape, args, children.fields, material, origin))
 }
 
 /// The numbers of all parameters, defaults included, or `None` after reporting what is wrong with them.
-fn arguments(
-    reader: &mut Reader,
-    shape: &Shape,
-    index: usize,
-    entries: &Entries<'_>,
-) -> Option<Vec<f64>> {
+fn arguments(reader: &mut Reader, shape: &Shape, index: usize, entries: &Entries<'_>) -> Option<Vec<f64>> {
     let mut args = Vec::new();
     let mut is_sound = true;
     for (place, param) in shape.about.params.iter().enumerate() {
@@ -340,9 +290,7 @@ fn arguments(
         let numbers = match written {
             Some(value) => {
                 reader.nodes[index].params[place] = Some(span(value));
-                reader.labelled(quote(param.name), |reader| {
-                    argument(reader, param.kind, value)
-                })
+                reader.labelled(quote(param.name), |reader| argument(reader, param.kind, value))
             }
             None => param.default.map(<[f64]>::to_vec),
         };
@@ -382,23 +330,14 @@ fn argument(reader: &mut Reader, kind: ParamKind, value: &Written<'_>) -> Option
         ParamKind::Vector | ParamKind::Direction | ParamKind::Size | ParamKind::Factors => {
             reader.numbers(value, ["x", "y", "z"])?.to_vec()
         }
-        ParamKind::Angles => reader
-            .numbers(value, ["x", "y", "z"])?
-            .map(f64::to_radians)
-            .to_vec(),
+        ParamKind::Angles => reader.numbers(value, ["x", "y", "z"])?.map(f64::to_radians).to_vec(),
         ParamKind::Quaternion => reader.numbers(value, ["x", "y", "z", "w"])?.to_vec(),
         ParamKind::HalfSpaces => half_spaces(reader, value)?,
     };
-    reader
-        .sound(value, (), kind.fault(&numbers))
-        .map(|()| numbers)
+    reader.sound(value, (), kind.fault(&numbers)).map(|()| numbers)
 }
 
-fn choice(
-    reader: &mut Reader,
-    names: &'static [&'static str],
-    value: &Written<'_>,
-) -> Option<usize> {
+fn choice(reader: &mut Reader, names: &'static [&'static str], value: &Written<'_>) -> Option<usize> {
     match value {
         Written::StringLit(name) => index_of(reader, value, &name.value, names.iter().copied()),
         Written::NumberLit(literal) if are_numbers(names) => {
@@ -432,9 +371,7 @@ fn half_spaces(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
     let outer = reader.label().to_string();
     for (index, element) in array.elements.iter().enumerate() {
         let label = format!("entry {} of {outer}", index + 1);
-        let plane = reader.labelled(label, |reader| {
-            reader.numbers(element, ["x", "y", "z", "d"])
-        });
+        let plane = reader.labelled(label, |reader| reader.numbers(element, ["x", "y", "z", "d"]));
         is_sound &= plane.is_some();
         numbers.extend(plane.into_iter().flatten());
     }
@@ -462,12 +399,7 @@ fn function_schema(shape: &'static Shape, definitions: &mut Definitions) -> Json
     match shape.arity() {
         Arity::None => {}
         Arity::One => object.key(CHILD, "The shape it works on.", child(), Need::Required),
-        Arity::Many => object.key(
-            CHILDREN,
-            "The shapes it works on.",
-            several(),
-            Need::Required,
-        ),
+        Arity::Many => object.key(CHILDREN, "The shapes it works on.", several(), Need::Required),
     }
     let is_plain = about.params.iter().all(|param| param.default.is_some());
     let mut schema = match shape.arity() {
@@ -480,33 +412,17 @@ fn function_schema(shape: &'static Shape, definitions: &mut Definitions) -> Json
 
 /// The default of a parameter as it would be written.
 fn param_json(param: &Param, numbers: &[f64]) -> Option<Json> {
-    let list = |numbers: &[f64]| {
-        Json::from(
-            numbers
-                .iter()
-                .map(|&number| tidy(number))
-                .collect::<Vec<_>>(),
-        )
-    };
+    let list = |numbers: &[f64]| Json::from(numbers.iter().map(|&number| tidy(number)).collect::<Vec<_>>());
     Some(match param.kind {
-        ParamKind::Number | ParamKind::Length | ParamKind::Positive | ParamKind::Factor => {
-            tidy(*numbers.first()?)
-        }
+        ParamKind::Number | ParamKind::Length | ParamKind::Positive | ParamKind::Factor => tidy(*numbers.first()?),
         ParamKind::Angle => tidy(numbers.first()?.to_degrees()),
-        ParamKind::Angles => list(
-            &numbers
-                .iter()
-                .map(|angle| angle.to_degrees())
-                .collect::<Vec<_>>(),
-        ),
+        ParamKind::Angles => list(&numbers.iter().map(|angle| angle.to_degrees()).collect::<Vec<_>>()),
         ParamKind::Choice(names) => json!(names.get(*numbers.first()? as usize)?),
         ParamKind::Flag => json!(*numbers.first()? != 0.0),
         ParamKind::HalfSpaces => numbers.chunks(4).map(list).collect(),
-        ParamKind::Vector
-        | ParamKind::Direction
-        | ParamKind::Size
-        | ParamKind::Factors
-        | ParamKind::Quaternion => list(numbers),
+        ParamKind::Vector | ParamKind::Direction | ParamKind::Size | ParamKind::Factors | ParamKind::Quaternion => {
+            list(numbers)
+        }
     })
 }
 
@@ -517,10 +433,7 @@ fn param_schema(kind: ParamKind) -> Json {
         ParamKind::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
         ParamKind::Factor => json!({ "type": "number", "not": { "const": 0 } }),
         ParamKind::Choice(names) => {
-            let numbers = names
-                .iter()
-                .filter_map(|name| name.parse::<f64>().ok())
-                .map(tidy);
+            let numbers = names.iter().filter_map(|name| name.parse::<f64>().ok()).map(tidy);
             let numbers: Vec<Json> = if are_numbers(names) {
                 numbers.collect()
             } else {
