@@ -1,0 +1,545 @@
+//! Shapes in files, read and described by their descriptors.
+//!
+//! A shape is an object whose one key is the name of a function and whose value holds its parameters; the shapes it works
+//! on stand under `shape` or `shapes`. A function of many shapes that needs no parameters may have the list for a value.
+//! Which functions there are, nothing here knows but [`freikugel_field::shapes::ALL`].
+
+use crate::notation::{
+    Notation, direction_schema, index_of, named_direction, numbers_schema, tidy,
+};
+use crate::object::MaterialNotation;
+use crate::reader::{Entries, NodePlace, Reader, name_span, span};
+use crate::schema::{Definitions, Need, ObjectSchema};
+use crate::suggest::{closest, quote};
+use crate::syntax::Written;
+use freikugel_field::{Arity, Field, Kind, Origin, Param, ParamKind, Shape, Value, shapes};
+use jsonc_parser::ast::ObjectProp;
+use serde_json::{Value as Json, json};
+
+/// The notation of shapes.
+pub(crate) struct ShapeNotation;
+
+/// The key of the shape that a function works on.
+const CHILD: &str = "shape";
+
+/// The key of the shapes that a function works on.
+const CHILDREN: &str = "shapes";
+
+/// The key of the material that a function paints with.
+const MATERIAL: &str = "material";
+
+fn by_name(name: &str) -> Option<&'static Shape> {
+    shapes::ALL
+        .iter()
+        .copied()
+        .find(|shape| shape.about.name == name)
+}
+
+impl Notation<Field> for ShapeNotation {
+    fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
+        let field = node(reader, value)?;
+        reader.roots.push(field.clone());
+        Some(field)
+    }
+
+    fn write(&self, _value: &Field) -> Option<Json> {
+        None
+    }
+
+    fn schema(&self, definitions: &mut Definitions) -> Json {
+        definitions.define("shape", |definitions| {
+            let functions: serde_json::Map<_, _> = shapes::ALL
+                .iter()
+                .map(|shape| (shape.about.name.to_string(), function_schema(shape, definitions)))
+                .collect();
+            json!({
+                "description": "A shape: an object with one key, its name, and its parameters as the value.",
+                "type": "object",
+                "properties": functions,
+                "additionalProperties": false,
+                "minProperties": 1,
+                "maxProperties": 1,
+            })
+        })
+    }
+}
+
+/// A shape and all within it. If it can't be read, the sound parts of it become roots of their own.
+fn node(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
+    let Written::Object(object) = value else {
+        reader.mistyped(value, "a shape", Some(form()));
+        return None;
+    };
+    let mut found: Option<(&'static Shape, &ObjectProp<'_>)> = None;
+    let mut strangers = Vec::new();
+    let mut is_alone = true;
+    for prop in &object.properties {
+        let key = prop.name.as_str();
+        match (by_name(key), found) {
+            (Some(shape), None) => found = Some((shape, prop)),
+            (Some(_), Some((first, _))) => {
+                let message = format!(
+                    "{} stands in the same object as `{}`",
+                    quote(key),
+                    first.about.name
+                );
+                reader.error(
+                    name_span(prop),
+                    message,
+                    Some("give each shape an object of its own".into()),
+                );
+                is_alone = false;
+            }
+            (None, _) => strangers.push(prop),
+        }
+    }
+    for prop in &strangers {
+        stranger(reader, prop, found.map(|(shape, _)| shape));
+    }
+    if object.properties.is_empty() {
+        reader.error(span(value), "a shape is missing here", Some(form()));
+    }
+    let (shape, prop) = found?;
+    let index = reader.nodes.len();
+    reader.nodes.push(NodePlace {
+        name: name_span(prop),
+        params: vec![None; shape.about.params.len()],
+    });
+    let field = reader.labelled(quote(shape.about.name), |reader| {
+        call(reader, shape, index, &prop.value)
+    });
+    if is_alone && strangers.is_empty() {
+        return field;
+    }
+    reader.roots.extend(field);
+    None
+}
+
+/// Reports a key that names no shape where one should.
+fn stranger(reader: &mut Reader, prop: &ObjectProp<'_>, beside: Option<&Shape>) {
+    let (key, place) = (prop.name.as_str(), name_span(prop));
+    if let Some(shape) = beside {
+        let message = format!("{} can't stand beside `{}`", quote(key), shape.about.name);
+        let hint = "what belongs to a shape goes into its own braces";
+        return reader.error(place, message, Some(hint.into()));
+    }
+    let known = shapes::ALL.iter().map(|shape| shape.about.name);
+    let elsewhere = shapes::ALL
+        .iter()
+        .find(|shape| shape.about.elsewhere.contains(&key));
+    let hint = match (elsewhere, closest(key, known.clone())) {
+        (Some(shape), _) => format!("here it is called `{}`", shape.about.name),
+        (None, Some(guess)) => format!("did you mean `{guess}`?"),
+        (None, None) => {
+            let more = if known.len() > MOST_LISTED {
+                ", ..."
+            } else {
+                ""
+            };
+            format!(
+                "there are {}{more}",
+                known.take(MOST_LISTED).collect::<Vec<_>>().join(", ")
+            )
+        }
+    };
+    reader.error(
+        place,
+        format!("there is no shape {}", quote(key)),
+        Some(hint),
+    );
+}
+
+/// As many names of shapes as a hint can hold and still be read.
+const MOST_LISTED: usize = 40;
+
+/// What a shape looks like.
+fn form() -> String {
+    shapes::ALL
+        .iter()
+        .find(|shape| shape.arity() == Arity::None)
+        .map(|shape| for_instance(shape))
+        .unwrap_or_default()
+}
+
+/// The example of a shape in a hint, on one line.
+fn for_instance(shape: &Shape) -> String {
+    format!(
+        "for instance {}",
+        shape
+            .about
+            .example
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+    )
+}
+
+/// A call of `shape` with the parameters and shapes in `value`.
+fn call(
+    reader: &mut Reader,
+    shape: &'static Shape,
+    index: usize,
+    value: &Written<'_>,
+) -> Option<Field> {
+    let about = &shape.about;
+    let arity = shape.arity();
+    let is_paint = matches!(shape.kind, Kind::Paint);
+    let mut keys: Vec<&'static str> = about.params.iter().map(|param| param.name).collect();
+    keys.extend(is_paint.then_some(MATERIAL));
+    keys.extend(child_key(arity));
+    let what = quote(about.name);
+
+    if let (Arity::Many, Written::Array(_)) = (arity, value) {
+        let children = list(reader, value);
+        let missing: Vec<_> = about
+            .params
+            .iter()
+            .filter(|param| param.default.is_none())
+            .collect();
+        for param in &missing {
+            let message = format!("{what} needs `{}`", param.name);
+            reader.error(
+                reader.nodes[index].name.clone(),
+                message,
+                Some(for_instance(shape)),
+            );
+        }
+        let args = missing.is_empty().then(Vec::new);
+        return finish(reader, shape, index, args, Some(None), children);
+    }
+    if !matches!(value, Written::Object(_)) {
+        let wanted = if keys == [CHILDREN] {
+            "a list of shapes"
+        } else {
+            "an object with its parameters"
+        };
+        reader.mistyped(value, wanted, Some(for_instance(shape)));
+        return None;
+    }
+    let entries = reader.entries(value, &keys)?;
+    let args = arguments(reader, shape, index, &entries);
+    let material = match is_paint {
+        true => entries
+            .require(reader, MATERIAL, "the name of a material")
+            .and_then(|value| {
+                reader
+                    .labelled(quote(MATERIAL), |reader| {
+                        MaterialNotation.read(reader, value)
+                    })
+                    .map(Some)
+            }),
+        false => Some(None),
+    };
+    let children = match arity {
+        Arity::None => Children::default(),
+        Arity::One => match entries.require(reader, CHILD, "the shape it works on") {
+            Some(value) => {
+                let child = reader.labelled(quote(CHILD), |reader| node(reader, value));
+                Children {
+                    is_sound: child.is_some(),
+                    fields: child.into_iter().collect(),
+                }
+            }
+            None => Children {
+                is_sound: false,
+                fields: Vec::new(),
+            },
+        },
+        Arity::Many => match entries.require(reader, CHILDREN, "the shapes it works on") {
+            Some(value) => reader.labelled(quote(CHILDREN), |reader| list(reader, value)),
+            None => Children {
+                is_sound: false,
+                fields: Vec::new(),
+            },
+        },
+    };
+    finish(reader, shape, index, args, material, children)
+}
+
+fn child_key(arity: Arity) -> Option<&'static str> {
+    match arity {
+        Arity::None => None,
+        Arity::One => Some(CHILD),
+        Arity::Many => Some(CHILDREN),
+    }
+}
+
+/// The shapes that a function works on, as far as they could be read.
+struct Children {
+    fields: Vec<Field>,
+    is_sound: bool,
+}
+
+impl Default for Children {
+    fn default() -> Self {
+        Self {
+            fields: Vec::new(),
+            is_sound: true,
+        }
+    }
+}
+
+fn list(reader: &mut Reader, value: &Written<'_>) -> Children {
+    let Written::Array(array) = value else {
+        reader.mistyped(value, "a list of shapes", None);
+        return Children {
+            is_sound: false,
+            fields: Vec::new(),
+        };
+    };
+    let mut children = Children::default();
+    let outer = reader.label().to_string();
+    for (index, element) in array.elements.iter().enumerate() {
+        let child = reader.labelled(format!("entry {} of {outer}", index + 1), |reader| {
+            node(reader, element)
+        });
+        children.is_sound &= child.is_some();
+        children.fields.extend(child);
+    }
+    children
+}
+
+/// The node, if all of it could be read; otherwise its sound children become roots.
+fn finish(
+    reader: &mut Reader,
+    shape: &'static Shape,
+    index: usize,
+    args: Option<Vec<f64>>,
+    material: Option<Option<freikugel_field::MaterialId>>,
+    children: Children,
+) -> Option<Field> {
+    let (Some(args), Some(material), true) = (args, material, children.is_sound) else {
+        reader.roots.extend(children.fields);
+        return None;
+    };
+    let args = args.into_iter().map(Value::Literal);
+    let origin = Origin::Document(u32::try_from(index).unwrap_or(u32::MAX));
+    Some(Field::with_origin(
+        shape,
+        args,
+        children.fields,
+        material,
+        origin,
+    ))
+}
+
+/// The numbers of all parameters, defaults included, or `None` after reporting what is wrong with them.
+fn arguments(
+    reader: &mut Reader,
+    shape: &Shape,
+    index: usize,
+    entries: &Entries<'_>,
+) -> Option<Vec<f64>> {
+    let mut args = Vec::new();
+    let mut is_sound = true;
+    for (place, param) in shape.about.params.iter().enumerate() {
+        let written = match param.default {
+            Some(_) => entries.get(param.name),
+            None => entries.require(reader, param.name, param.about),
+        };
+        let numbers = match written {
+            Some(value) => {
+                reader.nodes[index].params[place] = Some(span(value));
+                reader.labelled(quote(param.name), |reader| {
+                    argument(reader, param.kind, value)
+                })
+            }
+            None => param.default.map(<[f64]>::to_vec),
+        };
+        is_sound &= numbers.is_some();
+        args.extend(numbers.unwrap_or_default());
+    }
+    is_sound.then_some(args)
+}
+
+/// The numbers of one parameter.
+fn argument(reader: &mut Reader, kind: ParamKind, value: &Written<'_>) -> Option<Vec<f64>> {
+    let numbers = match kind {
+        ParamKind::Number | ParamKind::Length | ParamKind::Positive | ParamKind::Factor => {
+            vec![reader.number(value)?]
+        }
+        ParamKind::Angle => vec![reader.number(value)?.to_radians()],
+        ParamKind::Choice(names) => vec![choice(reader, names, value)? as f64],
+        ParamKind::Flag => {
+            let Written::BooleanLit(literal) = value else {
+                reader.mistyped(value, "`true` or `false`", None);
+                return None;
+            };
+            vec![f64::from(u8::from(literal.value))]
+        }
+        ParamKind::Direction if matches!(value, Written::StringLit(_)) => {
+            let name = value
+                .as_string_lit()
+                .map(|name| name.value.as_ref())
+                .unwrap_or_default();
+            named_direction(reader, value, name)?.to_array().to_vec()
+        }
+        ParamKind::Size if matches!(value, Written::NumberLit(_)) => vec![reader.number(value)?; 3],
+        ParamKind::Size if !matches!(value, Written::Array(_)) => {
+            reader.mistyped(value, "a number or a list of 3 numbers, [x, y, z]", None);
+            return None;
+        }
+        ParamKind::Vector | ParamKind::Direction | ParamKind::Size | ParamKind::Factors => {
+            reader.numbers(value, ["x", "y", "z"])?.to_vec()
+        }
+        ParamKind::Angles => reader
+            .numbers(value, ["x", "y", "z"])?
+            .map(f64::to_radians)
+            .to_vec(),
+        ParamKind::Quaternion => reader.numbers(value, ["x", "y", "z", "w"])?.to_vec(),
+        ParamKind::HalfSpaces => half_spaces(reader, value)?,
+    };
+    reader
+        .sound(value, (), kind.fault(&numbers))
+        .map(|()| numbers)
+}
+
+fn choice(
+    reader: &mut Reader,
+    names: &'static [&'static str],
+    value: &Written<'_>,
+) -> Option<usize> {
+    match value {
+        Written::StringLit(name) => index_of(reader, value, &name.value, names.iter().copied()),
+        Written::NumberLit(literal) if are_numbers(names) => {
+            let number = reader.number(value)?;
+            let index = names.iter().position(|name| name.parse() == Ok(number));
+            index.or_else(|| index_of(reader, value, literal.value, names.iter().copied()))
+        }
+        _ => {
+            reader.mistyped(
+                value,
+                &format!("one of {}", crate::suggest::listed(names.iter().copied())),
+                None,
+            );
+            None
+        }
+    }
+}
+
+/// Whether all names of a choice are numbers, which may then stand without quotes.
+fn are_numbers(names: &[&str]) -> bool {
+    names.iter().all(|name| name.parse::<f64>().is_ok())
+}
+
+fn half_spaces(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
+    let Written::Array(array) = value else {
+        reader.mistyped(value, "a list of half-spaces, [x, y, z, d] each", None);
+        return None;
+    };
+    let mut numbers = Vec::new();
+    let mut is_sound = true;
+    let outer = reader.label().to_string();
+    for (index, element) in array.elements.iter().enumerate() {
+        let label = format!("entry {} of {outer}", index + 1);
+        let plane = reader.labelled(label, |reader| {
+            reader.numbers(element, ["x", "y", "z", "d"])
+        });
+        is_sound &= plane.is_some();
+        numbers.extend(plane.into_iter().flatten());
+    }
+    is_sound.then_some(numbers)
+}
+
+/// The schema of a call of `shape`.
+fn function_schema(shape: &'static Shape, definitions: &mut Definitions) -> Json {
+    let about = &shape.about;
+    let mut object = ObjectSchema::default();
+    for param in about.params {
+        let need = match param.default {
+            None => Need::Required,
+            Some(default) => Need::Optional(param_json(param, default)),
+        };
+        object.key(param.name, param.about, param_schema(param.kind), need);
+    }
+    if matches!(shape.kind, Kind::Paint) {
+        let name = MaterialNotation.schema(definitions);
+        object.key(MATERIAL, "The name of a material.", name, Need::Required);
+    }
+    // A shape's definition is under construction here; this only names it.
+    let child = || json!({ "$ref": "#/$defs/shape" });
+    let several = || json!({ "type": "array", "items": child(), "minItems": 1 });
+    match shape.arity() {
+        Arity::None => {}
+        Arity::One => object.key(CHILD, "The shape it works on.", child(), Need::Required),
+        Arity::Many => object.key(
+            CHILDREN,
+            "The shapes it works on.",
+            several(),
+            Need::Required,
+        ),
+    }
+    let is_plain = about.params.iter().all(|param| param.default.is_some());
+    let mut schema = match shape.arity() {
+        Arity::Many if is_plain => json!({ "anyOf": [several(), object.finish()] }),
+        _ => object.finish(),
+    };
+    schema["description"] = about.summary.into();
+    schema
+}
+
+/// The default of a parameter as it would be written.
+fn param_json(param: &Param, numbers: &[f64]) -> Option<Json> {
+    let list = |numbers: &[f64]| {
+        Json::from(
+            numbers
+                .iter()
+                .map(|&number| tidy(number))
+                .collect::<Vec<_>>(),
+        )
+    };
+    Some(match param.kind {
+        ParamKind::Number | ParamKind::Length | ParamKind::Positive | ParamKind::Factor => {
+            tidy(*numbers.first()?)
+        }
+        ParamKind::Angle => tidy(numbers.first()?.to_degrees()),
+        ParamKind::Angles => list(
+            &numbers
+                .iter()
+                .map(|angle| angle.to_degrees())
+                .collect::<Vec<_>>(),
+        ),
+        ParamKind::Choice(names) => json!(names.get(*numbers.first()? as usize)?),
+        ParamKind::Flag => json!(*numbers.first()? != 0.0),
+        ParamKind::HalfSpaces => numbers.chunks(4).map(list).collect(),
+        ParamKind::Vector
+        | ParamKind::Direction
+        | ParamKind::Size
+        | ParamKind::Factors
+        | ParamKind::Quaternion => list(numbers),
+    })
+}
+
+fn param_schema(kind: ParamKind) -> Json {
+    match kind {
+        ParamKind::Number | ParamKind::Angle => json!({ "type": "number" }),
+        ParamKind::Length => json!({ "type": "number", "minimum": 0 }),
+        ParamKind::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
+        ParamKind::Factor => json!({ "type": "number", "not": { "const": 0 } }),
+        ParamKind::Choice(names) => {
+            let numbers = names
+                .iter()
+                .filter_map(|name| name.parse::<f64>().ok())
+                .map(tidy);
+            let numbers: Vec<Json> = if are_numbers(names) {
+                numbers.collect()
+            } else {
+                Vec::new()
+            };
+            json!({ "enum": names.iter().map(|name| json!(name)).chain(numbers).collect::<Vec<_>>() })
+        }
+        ParamKind::Flag => json!({ "type": "boolean" }),
+        ParamKind::Vector | ParamKind::Angles => numbers_schema(3),
+        ParamKind::Direction => direction_schema(),
+        ParamKind::Size => {
+            let length = json!({ "type": "number", "exclusiveMinimum": 0 });
+            json!({ "anyOf": [length, { "type": "array", "items": length, "minItems": 3, "maxItems": 3 }] })
+        }
+        ParamKind::Factors => {
+            let factor = json!({ "type": "number", "not": { "const": 0 } });
+            json!({ "type": "array", "items": factor, "minItems": 3, "maxItems": 3 })
+        }
+        ParamKind::Quaternion => numbers_schema(4),
+        ParamKind::HalfSpaces => json!({ "type": "array", "items": numbers_schema(4) }),
+    }
+}
