@@ -64,9 +64,7 @@ impl Camera {
     #[must_use]
     pub fn orthographic(self, height: impl Argument<f64>) -> Self {
         Self {
-            projection: Projection::Orthographic {
-                height: height.value(),
-            },
+            projection: Projection::Orthographic { height: height.value() },
             ..self
         }
     }
@@ -164,10 +162,7 @@ impl Notation<Projection> for FieldOfView {
 
     fn schema(&self, definitions: &mut Definitions) -> Json {
         let angle = Notation::<f64>::schema(&FOV, definitions);
-        let named: serde_json::Map<_, _> = AXES
-            .map(|axis| (axis.to_string(), angle.clone()))
-            .into_iter()
-            .collect();
+        let named: serde_json::Map<_, _> = AXES.map(|axis| (axis.to_string(), angle.clone())).into_iter().collect();
         json!({
             "description": "The opening angle in degrees from the lower to the upper edge of the picture, or \
                 as { \"horizontal\": 60 } from side to side.",

@@ -241,11 +241,7 @@ mod tests {
         let mut reader = Reader::new();
         let value = parse(&text, &mut reader.diagnostics).expect("JSON");
         let read = R::read(&mut reader, &value);
-        assert!(
-            reader.diagnostics.is_empty(),
-            "{:?}\n{text}",
-            reader.diagnostics
-        );
+        assert!(reader.diagnostics.is_empty(), "{:?}\n{text}", reader.diagnostics);
         assert_eq!(read.as_ref(), Some(record), "{text}");
     }
 
@@ -253,11 +249,7 @@ mod tests {
     fn records_survive_their_notation() {
         survives(&Camera::default());
         survives(&Camera::look([1, 2, 3], [0.1, 0.2, 0.3]).fov(33.3));
-        survives(
-            &Camera::look([1, 2, 3], [4, 5, 6])
-                .horizontal_fov(60)
-                .up([0, 1, 0]),
-        );
+        survives(&Camera::look([1, 2, 3], [4, 5, 6]).horizontal_fov(60).up([0, 1, 0]));
         survives(&Camera::look([1, 2, 3], [4, 5, 6]).orthographic(2.5));
         survives(&Sun::default());
         survives(
@@ -269,11 +261,7 @@ mod tests {
             angle: Some(0.5_f64.to_radians()),
         }));
         survives(&Point::default());
-        survives(
-            &Point::at([1, 2, 3])
-                .falloff(Falloff::None)
-                .shadow(Shadow::None),
-        );
+        survives(&Point::at([1, 2, 3]).falloff(Falloff::None).shadow(Shadow::None));
         survives(&Point::at([1, 2, 3]).falloff(Falloff::Polynomial([1.0, 0.1, 0.01])));
         survives(&Spot::default());
         survives(
@@ -282,11 +270,7 @@ mod tests {
                 .shadow(Shadow::Clearance { angle: None }),
         );
         survives(&Material::default());
-        survives(
-            &Material::color("#c8825a")
-                .emissive([0.1, 0.2, 3.0])
-                .model(Model::Phong),
-        );
+        survives(&Material::color("#c8825a").emissive([0.1, 0.2, 3.0]).model(Model::Phong));
         survives(&Material::checker("#fff", "#123", 0.3).exponent(1e9));
         survives(&Ambient::default());
         survives(&Occlusion::default());
@@ -304,10 +288,7 @@ mod tests {
 
     #[test]
     fn defaults_have_no_faults() {
-        let lights = Light::rig()
-            .iter()
-            .map(|light| light.faults().len())
-            .sum::<usize>();
+        let lights = Light::rig().iter().map(|light| light.faults().len()).sum::<usize>();
         let others = [
             Camera::default().faults(),
             Sun::default().faults(),

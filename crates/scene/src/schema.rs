@@ -8,7 +8,7 @@ use serde_json::{Map, Value as Json, json};
 /// The JSON Schema (draft 2020-12) of scene files.
 ///
 /// It says what can be said of a value by itself. What a scene needs beyond that (known materials, distinct names, ...)
-/// only [`crate::read`] tells.
+/// only [`read`](fn@crate::read) tells.
 pub fn schema() -> Json {
     let mut definitions = Definitions::default();
     let root = definitions.record::<Scene>();
@@ -112,24 +112,14 @@ impl RecordSchema<'_> {
     }
 
     /// Adds a key with its notation and its default, if it need not be there.
-    pub(crate) fn key<T>(
-        &mut self,
-        key: &'static str,
-        about: &str,
-        notation: &dyn Notation<T>,
-        default: Option<&T>,
-    ) {
-        let need = default.map_or(Need::Required, |default| {
-            Need::Optional(notation.write(default))
-        });
+    pub(crate) fn key<T>(&mut self, key: &'static str, about: &str, notation: &dyn Notation<T>, default: Option<&T>) {
+        let need = default.map_or(Need::Required, |default| Need::Optional(notation.write(default)));
         let schema = notation.schema(self.definitions);
         self.object.key(key, about, schema, need);
     }
 
     /// At most one of two keys may be there.
     pub(crate) fn exclude(&mut self, one: &'static str, other: &'static str) {
-        self.object
-            .exclusions
-            .push(json!({ "required": [one, other] }));
+        self.object.exclusions.push(json!({ "required": [one, other] }));
     }
 }

@@ -64,11 +64,7 @@ impl ShadowNotation {
 impl Notation<Shadow> for ShadowNotation {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Shadow> {
         match value {
-            Written::BooleanLit(literal) => Some(if literal.value {
-                Shadow::Hard
-            } else {
-                Shadow::None
-            }),
+            Written::BooleanLit(literal) => Some(if literal.value { Shadow::Hard } else { Shadow::None }),
             Written::Object(_) => {
                 let (index, value) = reader.variant(value, "a shadow", &FORMS)?;
                 reader.labelled(quote(FORMS[index]), |reader| match index {
@@ -90,9 +86,7 @@ impl Notation<Shadow> for ShadowNotation {
             | (Shadow::None | Shadow::Hard, true) => None,
             (Shadow::Hardness(hardness), _) => HARDNESS.fault(hardness),
             (Shadow::Clearance { angle: Some(angle) }, true) => ANGLE.fault(angle),
-            (Shadow::Clearance { angle: None }, true) => {
-                Some("must have an angle: that of the sun".into())
-            }
+            (Shadow::Clearance { angle: None }, true) => Some("must have an angle: that of the sun".into()),
             (Shadow::Clearance { angle: Some(_) }, false) => {
                 Some("must have no angle: a lamp's size is the free space around it".into())
             }

@@ -29,10 +29,7 @@ const CHILDREN: &str = "shapes";
 const MATERIAL: &str = "material";
 
 fn by_name(name: &str) -> Option<&'static Shape> {
-    shapes::ALL
-        .iter()
-        .copied()
-        .find(|shape| shape.about.name == name)
+    shapes::ALL.iter().copied().find(|shape| shape.about.name == name)
 }
 
 impl Notation<Field> for ShapeNotation {
@@ -67,7 +64,7 @@ impl Notation<Field> for ShapeNotation {
 /// A shape and all within it. If it can't be read, the sound parts of it become roots of their own.
 fn node(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
     let Written::Object(object) = value else {
-        reader.mistyped(value, "a shape", Some(form()));
+        reader.mistyped(value, "a shape", Some(for_instance(&shapes::SPHERE)));
         return None;
     };
     let mut found: Option<(&'static Shape, &ObjectProp<'_>)> = None;
@@ -78,11 +75,7 @@ fn node(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
         match (by_name(key), found) {
             (Some(shape), None) => found = Some((shape, prop)),
             (Some(_), Some((first, _))) => {
-                let message = format!(
-                    "{} stands in the same object as `{}`",
-                    quote(key),
-                    first.about.name
-                );
+                let message = format!("{} stands in the same object as `{}`", quote(key), first.about.name);
                 reader.error(
                     name_span(prop),
                     message,
@@ -97,7 +90,11 @@ fn node(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
         stranger(reader, prop, found.map(|(shape, _)| shape));
     }
     if object.properties.is_empty() {
-        reader.error(span(value), "a shape is missing here", Some(form()));
+        reader.error(
+            span(value),
+            "a shape is missing here",
+            Some(for_instance(&shapes::SPHERE)),
+        );
     }
     let (shape, prop) = found?;
     let index = reader.nodes.len();
@@ -124,63 +121,34 @@ fn stranger(reader: &mut Reader, prop: &ObjectProp<'_>, beside: Option<&Shape>) 
         return reader.error(place, message, Some(hint.into()));
     }
     let known = shapes::ALL.iter().map(|shape| shape.about.name);
-    let elsewhere = shapes::ALL
-        .iter()
-        .find(|shape| shape.about.elsewhere.contains(&key));
+    let elsewhere = shapes::ALL.iter().find(|shape| shape.about.elsewhere.contains(&key));
     let hint = match (elsewhere, closest(key, known.clone())) {
         (Some(shape), _) => format!("here it is called `{}`", shape.about.name),
         (None, Some(guess)) => format!("did you mean `{guess}`?"),
         (None, None) => {
-            let more = if known.len() > MOST_LISTED {
-                ", ..."
-            } else {
-                ""
-            };
+            let more = if known.len() > MOST_LISTED { ", ..." } else { "" };
             format!(
                 "there are {}{more}",
                 known.take(MOST_LISTED).collect::<Vec<_>>().join(", ")
             )
         }
     };
-    reader.error(
-        place,
-        format!("there is no shape {}", quote(key)),
-        Some(hint),
-    );
+    reader.error(place, format!("there is no shape {}", quote(key)), Some(hint));
 }
 
 /// As many names of shapes as a hint can hold and still be read.
 const MOST_LISTED: usize = 40;
 
-/// What a shape looks like.
-fn form() -> String {
-    shapes::ALL
-        .iter()
-        .find(|shape| shape.arity() == Arity::None)
-        .map(|shape| for_instance(shape))
-        .unwrap_or_default()
-}
-
 /// The example of a shape in a hint, on one line.
-fn for_instance(shape: &Shape) -> String {
+pub(crate) fn for_instance(shape: &Shape) -> String {
     format!(
         "for instance {}",
-        shape
-            .about
-            .example
-            .split_whitespace()
-            .collect::<Vec<_>>()
-            .join(" ")
+        shape.about.example.split_whitespace().collect::<Vec<_>>().join(" ")
     )
 }
 
 /// A call of `shape` with the parameters and shapes in `value`.
-fn call(
-    reader: &mut Reader,
-    shape: &'static Shape,
-    index: usize,
-    value: &Written<'_>,
-) -> Option<Field> {
+fn call(reader: &mut Reader, shape: &'static Shape, index: usize, value: &Written<'_>) -> Option<Field> {
     let about = &shape.about;
     let arity = shape.arity();
     let is_paint = matches!(shape.kind, Kind::Paint);
@@ -191,18 +159,10 @@ fn call(
 
     if let (Arity::Many, Written::Array(_)) = (arity, value) {
         let children = list(reader, value);
-        let missing: Vec<_> = about
-            .params
-            .iter()
-            .filter(|param| param.default.is_none())
-            .collect();
+        let missing: Vec<_> = about.params.iter().filter(|param| param.default.is_none()).collect();
         for param in &missing {
             let message = format!("{what} needs `{}`", param.name);
-            reader.error(
-                reader.nodes[index].name.clone(),
-                message,
-                Some(for_instance(shape)),
-            );
+            reader.error(reader.nodes[index].name.clone(), message, Some(for_instance(shape)));
         }
         let args = missing.is_empty().then(Vec::new);
         return finish(reader, shape, index, args, Some(None), children);
@@ -228,9 +188,7 @@ fn call(
         Arity::None => Vec::new(),
         Arity::One => {
             let child = entries.require(reader, CHILD, "the shape it works on");
-            vec![
-                child.and_then(|child| reader.labelled(quote(CHILD), |reader| node(reader, child))),
-            ]
+            vec![child.and_then(|child| reader.labelled(quote(CHILD), |reader| node(reader, child)))]
         }
         Arity::Many => match entries.require(reader, CHILDREN, "the shapes it works on") {
             Some(value) => reader.labelled(quote(CHILDREN), |reader| list(reader, value)),
@@ -283,12 +241,7 @@ fn finish(
 }
 
 /// The numbers of all parameters, defaults included, or `None` after reporting what is wrong with them.
-fn arguments(
-    reader: &mut Reader,
-    shape: &Shape,
-    index: usize,
-    entries: &Entries<'_>,
-) -> Option<Vec<f64>> {
+fn arguments(reader: &mut Reader, shape: &Shape, index: usize, entries: &Entries<'_>) -> Option<Vec<f64>> {
     let mut args = Vec::new();
     let mut is_sound = true;
     for (place, param) in shape.about.params.iter().enumerate() {
@@ -318,12 +271,7 @@ fn function_schema(shape: &'static Shape, definitions: &mut Definitions) -> Json
             None => Need::Required,
             Some(default) => Need::Optional(param.kind.write(&default.to_vec())),
         };
-        object.key(
-            param.name,
-            param.about,
-            param.kind.schema(definitions),
-            need,
-        );
+        object.key(param.name, param.about, param.kind.schema(definitions), need);
     }
     if matches!(shape.kind, Kind::Paint) {
         let name = MaterialNotation.schema(definitions);
@@ -335,12 +283,7 @@ fn function_schema(shape: &'static Shape, definitions: &mut Definitions) -> Json
     match shape.arity() {
         Arity::None => {}
         Arity::One => object.key(CHILD, "The shape it works on.", child(), Need::Required),
-        Arity::Many => object.key(
-            CHILDREN,
-            "The shapes it works on.",
-            several(),
-            Need::Required,
-        ),
+        Arity::Many => object.key(CHILDREN, "The shapes it works on.", several(), Need::Required),
     }
     let is_plain = about.params.iter().all(|param| param.default.is_some());
     let mut schema = match shape.arity() {

@@ -16,10 +16,7 @@ const SCENE: &str = r##"{ "camera": { "eye": [4, -6, 3], "target": [0, 0, 1], "f
 fn survives(text: &str) {
     let reading = read(text);
     for diagnostic in &reading.diagnostics {
-        assert!(
-            diagnostic.span.start <= diagnostic.span.end,
-            "{diagnostic:?}"
-        );
+        assert!(diagnostic.span.start <= diagnostic.span.end, "{diagnostic:?}");
         assert!(
             text.get(diagnostic.span.clone()).is_some(),
             "{diagnostic:?} lies outside of {text:?}"
@@ -52,10 +49,7 @@ fn large_texts_are_read_quickly() {
         ),
         (
             "duplicate materials",
-            format!(
-                "{{\"materials\": {{{}\"z\": 0}}}}",
-                "\"a\": {},".repeat(100_000)
-            ),
+            format!("{{\"materials\": {{{}\"z\": 0}}}}", "\"a\": {},".repeat(100_000)),
         ),
         ("lines", "\n".repeat(5_000_000)),
         ("comments", "/**/".repeat(1_000_000)),
@@ -75,9 +69,7 @@ fn large_texts_are_read_quickly() {
 fn nested(depth: usize) -> String {
     let (before, after) = (r#"{ "translate": { "by": [0, 0, 1], "shape": "#, " } }");
     let [before, after] = [before, after].map(|part| part.repeat(depth - 1));
-    format!(
-        r#"{{ "objects": [ {{ "shape": {before}{{ "sphere": {{ "radius": 1 }} }}{after} }} ] }}"#
-    )
+    format!(r#"{{ "objects": [ {{ "shape": {before}{{ "sphere": {{ "radius": 1 }} }}{after} }} ] }}"#)
 }
 
 #[test]
@@ -85,12 +77,10 @@ fn the_deepest_scene_is_read_on_a_small_thread() {
     // Three brackets stand around the outermost shape, and each shape has two.
     let deepest = (MOST_NESTED - 3) / 2;
     let read_in_thread = move |depth| {
-        let reading = std::thread::Builder::new()
-            .stack_size(1 << 20)
-            .spawn(move || {
-                let scene: Option<Scene> = read(&nested(depth)).scene;
-                scene.map(|scene| scene.check().len())
-            });
+        let reading = std::thread::Builder::new().stack_size(1 << 20).spawn(move || {
+            let scene: Option<Scene> = read(&nested(depth)).scene;
+            scene.map(|scene| scene.check().len())
+        });
         reading.expect("a thread").join().expect("no overflow")
     };
     assert_eq!(read_in_thread(deepest), Some(0));

@@ -9,9 +9,7 @@ use glam::DVec3;
 fn sound(text: &str) -> Scene {
     let reading = read(text);
     let printed = report(text, "scene.json", &reading.diagnostics, false);
-    reading
-        .into_result()
-        .unwrap_or_else(|_| panic!("{printed}"))
+    reading.into_result().unwrap_or_else(|_| panic!("{printed}"))
 }
 
 #[test]
@@ -77,9 +75,7 @@ fn a_full_scene_has_all_its_values() {
     assert_eq!(
         scene.lights,
         [
-            Sun::towards([0, -1, 0])
-                .shadow(Shadow::Hardness(16.0))
-                .into(),
+            Sun::towards([0, -1, 0]).shadow(Shadow::Hardness(16.0)).into(),
             Sun::towards([1, 0, 1]).shadow(clearance).into(),
             Point::at([-3, -4, 5]).intensity(30).into(),
             Spot::at([0, 0, 5], [0, 0, 0])
@@ -91,10 +87,7 @@ fn a_full_scene_has_all_its_values() {
     );
     let (name, clay) = &scene.materials[1];
     assert_eq!(name, "clay");
-    assert_eq!(
-        *clay,
-        Material::color([0.0; 3]).specular(0.1).model(Model::Phong)
-    );
+    assert_eq!(*clay, Material::color([0.0; 3]).specular(0.1).model(Model::Phong));
     assert_eq!(scene.materials[0].1.color, Pattern::Solid([0.5, 0.25, 2.0]));
     assert_eq!(
         scene.ambient,
@@ -117,16 +110,13 @@ fn a_full_scene_has_all_its_values() {
 
 #[test]
 fn an_empty_list_of_lights_is_darkness() {
-    let scene =
-        sound(r#"{ "lights": [], "objects": [ { "shape": { "sphere": { "radius": 1 } } } ] }"#);
+    let scene = sound(r#"{ "lights": [], "objects": [ { "shape": { "sphere": { "radius": 1 } } } ] }"#);
     assert!(scene.lights.is_empty());
 }
 
 #[test]
 fn files_may_hold_comments() {
-    sound(
-        "{ // a ball\n \"objects\": [ /* one */ { \"shape\": { \"sphere\": { \"radius\": 1 } } } ] }",
-    );
+    sound("{ // a ball\n \"objects\": [ /* one */ { \"shape\": { \"sphere\": { \"radius\": 1 } } } ] }");
 }
 
 /// Every shape's example is a shape.
@@ -180,34 +170,24 @@ fn mistakes_in_code_have_lines() {
     let red = scene.material("red", Material::color("red"));
     scene.material("red", Material::default().specular(-1));
     scene.add("a", (sphere(1) | sphere(-1)).painted(red));
-    scene.add(
-        "a",
-        sphere(1) + sphere(2).at([0, 0, 1]).painted(MaterialId(7)),
-    );
+    scene.add("a", sphere(1) + sphere(2).at([0, 0, 1]).painted(MaterialId(7)));
     scene.light(Sun::towards([0, 0, 0]));
-    scene.camera(
-        Camera::look([1, 2, 3], [0, 0, 0])
-            .orthographic(0)
-            .up([f64::NAN; 3]),
-    );
+    scene.camera(Camera::look([1, 2, 3], [0, 0, 0]).orthographic(0).up([f64::NAN; 3]));
     scene.picture.width = 0;
     // A part that no method added has the place of the check.
     let diagnostics = scene.check();
     let found = mistakes(&diagnostics, start);
     let expected = [
-        (10, "camera: `up` must be finite"),
-        (10, "camera: `height` must be above 0, but is 0"),
-        (9, "light 1: `direction` must not be the zero vector"),
-        (17, "picture: `width` must be at least 1, but is 0"),
+        (7, "camera: `up` must be finite"),
+        (7, "camera: `height` must be above 0, but is 0"),
+        (6, "light 1: `direction` must not be the zero vector"),
+        (10, "picture: `width` must be at least 1, but is 0"),
         (
             2,
             "material `red`: `color` is not a colour: a colour is \"#rrggbb\" or \"#rgb\", or linear [red, green, blue]",
         ),
         (3, "another material is called `red` already"),
-        (
-            3,
-            "material `red`: `specular` must not be negative, but is -1",
-        ),
+        (3, "material `red`: `specular` must not be negative, but is -1"),
         (4, "`radius` of sphere must be above 0, but is -1"),
         (5, "another object is called `a` already"),
         (5, "object `a` has a material of another scene"),

@@ -1,8 +1,6 @@
 //! Parameters of shapes: how each [`ParamKind`] is written.
 
-use crate::notation::{
-    Notation, direction_schema, index_of, named_direction, numbers_schema, tidy, tidy_degrees,
-};
+use crate::notation::{Notation, direction_schema, index_of, named_direction, numbers_schema, tidy, tidy_degrees};
 use crate::reader::Reader;
 use crate::schema::Definitions;
 use crate::suggest::listed;
@@ -28,23 +26,17 @@ impl Notation<Vec<f64>> for ParamKind {
                 return None;
             }
             (Self::Direction, Written::StringLit(name)) => {
-                named_direction(reader, value, &name.value)?
-                    .to_array()
-                    .to_vec()
+                named_direction(reader, value, &name.value)?.to_array().to_vec()
             }
             (Self::Size, Written::NumberLit(_)) => vec![reader.number(value)?; 3],
-            (Self::Size, Written::Array(_))
-            | (Self::Vector | Self::Direction | Self::Factors, _) => {
+            (Self::Size, Written::Array(_)) | (Self::Vector | Self::Direction | Self::Factors, _) => {
                 reader.numbers(value, ["x", "y", "z"])?.to_vec()
             }
             (Self::Size, _) => {
                 reader.mistyped(value, "a number or a list of 3 numbers, [x, y, z]", None);
                 return None;
             }
-            (Self::Angles, _) => reader
-                .numbers(value, ["x", "y", "z"])?
-                .map(f64::to_radians)
-                .to_vec(),
+            (Self::Angles, _) => reader.numbers(value, ["x", "y", "z"])?.map(f64::to_radians).to_vec(),
             (Self::Quaternion, _) => reader.numbers(value, ["x", "y", "z", "w"])?.to_vec(),
             (Self::HalfSpaces, _) => half_spaces(reader, value)?,
         };
@@ -68,17 +60,14 @@ impl Notation<Vec<f64>> for ParamKind {
             }
             Self::Flag => json!(first != 0.0),
             Self::HalfSpaces => value.chunks(4).map(list).collect(),
-            Self::Vector | Self::Direction | Self::Size | Self::Factors | Self::Quaternion => {
-                list(value)
-            }
+            Self::Vector | Self::Direction | Self::Size | Self::Factors | Self::Quaternion => list(value),
         })
     }
 
     fn schema(&self, _definitions: &mut Definitions) -> Json {
         let factor = || json!({ "type": "number", "not": { "const": 0 } });
         let length = || json!({ "type": "number", "exclusiveMinimum": 0 });
-        let three =
-            |item: Json| json!({ "type": "array", "items": item, "minItems": 3, "maxItems": 3 });
+        let three = |item: Json| json!({ "type": "array", "items": item, "minItems": 3, "maxItems": 3 });
         match *self {
             Self::Number | Self::Angle => json!({ "type": "number" }),
             Self::Length => json!({ "type": "number", "minimum": 0 }),
@@ -107,11 +96,7 @@ fn list(numbers: &[f64]) -> Json {
 }
 
 /// The place of a choice among its names.
-fn choice(
-    reader: &mut Reader,
-    names: &'static [&'static str],
-    value: &Written<'_>,
-) -> Option<usize> {
+fn choice(reader: &mut Reader, names: &'static [&'static str], value: &Written<'_>) -> Option<usize> {
     match value {
         Written::StringLit(name) => index_of(reader, value, &name.value, names.iter().copied()),
         Written::NumberLit(literal) if are_numbers(names) => {
@@ -120,11 +105,7 @@ fn choice(
             index.or_else(|| index_of(reader, value, literal.value, names.iter().copied()))
         }
         _ => {
-            reader.mistyped(
-                value,
-                &format!("one of {}", listed(names.iter().copied())),
-                None,
-            );
+            reader.mistyped(value, &format!("one of {}", listed(names.iter().copied())), None);
             None
         }
     }
@@ -145,9 +126,7 @@ fn half_spaces(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
     let outer = reader.label().to_string();
     for (index, element) in array.elements.iter().enumerate() {
         let label = format!("entry {} of {outer}", index + 1);
-        let plane = reader.labelled(label, |reader| {
-            reader.numbers(element, ["x", "y", "z", "d"])
-        });
+        let plane = reader.labelled(label, |reader| reader.numbers(element, ["x", "y", "z", "d"]));
         is_sound &= plane.is_some();
         numbers.extend(plane.into_iter().flatten());
     }
@@ -172,20 +151,12 @@ mod tests {
         const ORDER: ParamKind = ParamKind::Choice(&["2", "3"]);
         for (kind, text, numbers) in [
             (ParamKind::Angle, "180", vec![std::f64::consts::PI]),
-            (
-                ParamKind::Angles,
-                "[0, 0, 180]",
-                vec![0.0, 0.0, std::f64::consts::PI],
-            ),
+            (ParamKind::Angles, "[0, 0, 180]", vec![0.0, 0.0, std::f64::consts::PI]),
             (ParamKind::Direction, "\"-y\"", vec![0.0, -1.0, 0.0]),
             (ParamKind::Direction, "[1, 2, 3]", vec![1.0, 2.0, 3.0]),
             (ParamKind::Size, "2", vec![2.0; 3]),
             (ParamKind::Flag, "true", vec![1.0]),
-            (
-                ParamKind::Quaternion,
-                "[0, 0, 0, 1]",
-                vec![0.0, 0.0, 0.0, 1.0],
-            ),
+            (ParamKind::Quaternion, "[0, 0, 0, 1]", vec![0.0, 0.0, 0.0, 1.0]),
             (
                 ParamKind::HalfSpaces,
                 "[[1, 0, 0, 1], [0, 1, 0, 2]]",
