@@ -107,12 +107,6 @@ impl Notation<Rgb> for ColorNotation {
 /// The ways to write a colour.
 const FORMS: &str = "a colour is \"#rrggbb\" or \"#rgb\", or linear [red, green, blue]";
 
-impl Argument<Rgb> for Rgb {
-    fn value(self) -> Rgb {
-        self
-    }
-}
-
 /// `#rrggbb` or `#rgb`. Any other text makes a colour that [`crate::Scene::check`] reports.
 impl Argument<Rgb> for &str {
     fn value(self) -> Rgb {

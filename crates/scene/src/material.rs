@@ -29,7 +29,7 @@ record! {
         /// Light that the surface sends out by itself.
         pub emissive: Rgb = BLACK, optional ColorNotation, setter emissive;
         /// How the highlight is computed.
-        pub model: Model = Model::BlinnPhong, optional ChoiceNotation;
+        pub model: Model = Model::BlinnPhong, optional ChoiceNotation, setter model;
     }
     checked by energy_faults
 }
@@ -53,12 +53,6 @@ impl Material {
             color,
             ..Self::default()
         }
-    }
-
-    /// The same with highlights computed another way.
-    #[must_use]
-    pub fn model(self, model: Model) -> Self {
-        Self { model, ..self }
     }
 }
 

@@ -16,7 +16,7 @@ record! {
     /// A shape with a name and a material.
     #[derive(Clone, Debug)]
     pub struct Object = "object" {
-        /// What it is called: every object of a scene otherwise. Objects without a name are numbered.
+        /// What it is called; no two objects share a name. Objects without one are numbered.
         pub name: String = String::new(), optional NameNotation;
         /// The material of the parts that are not painted; an index into the scene's materials in code, a name in files.
         pub material: Option<MaterialId> = None, optional Maybe(MaterialNotation);
@@ -144,8 +144,8 @@ impl Notation<Vec<Object>> for ObjectsNotation {
             return None;
         };
         if array.elements.is_empty() {
-            let hint = "for instance { \"shape\": { \"sphere\": { \"radius\": 1 } } }";
-            reader.error(span(value), "the scene has no objects", Some(hint.into()));
+            let hint = format!("for instance {{ \"shape\": {} }}", shapes::SPHERE.about.example);
+            reader.error(span(value), "the scene has no objects", Some(hint));
         }
         let mut names = HashSet::new();
         for written in array.elements.iter().filter_map(|element| element.as_object()) {

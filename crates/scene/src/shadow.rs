@@ -1,6 +1,5 @@
 //! Shadows: which of the ways to find them a light uses.
 
-use crate::Argument;
 use crate::notation::{Flag, Notation, Number, tidy_f32};
 use crate::reader::{Reader, span};
 use crate::schema::Definitions;
@@ -25,12 +24,6 @@ pub enum Shadow {
         /// The apparent diameter of a sun.
         angle: Option<f64>,
     },
-}
-
-impl Argument<Shadow> for Shadow {
-    fn value(self) -> Shadow {
-        self
-    }
 }
 
 /// The notation of shadows, which differs for suns and lamps.

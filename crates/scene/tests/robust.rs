@@ -2,6 +2,7 @@
 
 use freikugel_scene::{MOST_NESTED, Scene, read, report};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use std::time::{Duration, Instant};
 
 const SCENE: &str = r##"{ "camera": { "eye": [4, -6, 3], "target": [0, 0, 1], "fov": 40 }, // the view
@@ -137,8 +138,11 @@ fn token() -> impl Strategy<Value = String> {
     ]
 }
 
+/// Every run tests the same cases: a failure is never a matter of luck.
+const SEED: u64 = 1;
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 2000, rng_seed: RngSeed::Fixed(SEED), ..ProptestConfig::default() })]
 
     #[test]
     fn any_text_is_survived(text in any::<String>()) {
@@ -168,7 +172,7 @@ proptest! {
         survives(&text);
     }
 
-    /// Without comments, what is read without errors is JSON for others, too.
+    /// But for comments and a byte order mark, what is read without errors is JSON for others, too.
     #[test]
     fn what_is_read_is_json(
         at in any::<prop::sample::Index>(),
@@ -181,7 +185,7 @@ proptest! {
         text.replace_range(start..end, &token);
         let has_comments = text.contains("//") || text.contains("/*");
         if read(&text).scene.is_some() && !has_comments {
-            let other: Result<serde_json::Value, _> = serde_json::from_str(&text);
+            let other: Result<serde_json::Value, _> = serde_json::from_str(text.trim_start_matches('\u{feff}'));
             prop_assert!(other.is_ok(), "{text}");
         }
     }

@@ -2,6 +2,7 @@
 
 use freikugel_scene::{Severity, read, schema};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use serde_json::{Map, Value as Json, json};
 use std::sync::LazyLock;
 
@@ -362,8 +363,11 @@ fn count(value: &Json) -> usize {
     }
 }
 
+/// Every run tests the same cases: a failure is never a matter of luck.
+const SEED: u64 = 1;
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 2000, rng_seed: RngSeed::Fixed(SEED), ..ProptestConfig::default() })]
 
     #[test]
     fn changed_scenes_are_judged_alike(

@@ -197,6 +197,11 @@ pub(crate) fn tidy(number: f64) -> Json {
     if is_whole { json!(number as i64) } else { json!(number) }
 }
 
+/// An angle in degrees in JSON.
+pub(crate) fn tidy_degrees(radians: f64) -> Json {
+    tidy(rounded_degrees(radians))
+}
+
 /// The shortest decimal that stands for the same `f32`.
 pub(crate) fn tidy_f32(number: f32) -> Json {
     tidy(number.to_string().parse().unwrap_or(f64::from(number)))
