@@ -69,7 +69,7 @@ fn describe(shape: &Shape) -> String {
         Arity::None => {}
         Arity::One => text.push_str("  shape            The shape that is changed.\n"),
         Arity::Many => {
-            text.push_str("  shapes           One or more shapes, in order; they may stand alone as a list.\n")
+            text.push_str("  shapes           One or more shapes, in order; they may stand alone as a list.\n");
         }
     }
     if !about.elsewhere.is_empty() {
