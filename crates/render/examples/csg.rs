@@ -6,8 +6,8 @@ use freikugel_field::shapes::*;
 use freikugel_field::{Field, MaterialId};
 use freikugel_render::{Options, Tone, encode_png, render};
 use freikugel_scene::{
-    Ambient, Background, Camera, Falloff, FovAxis, Light, Material, Model, Object, Pattern, Point,
-    Projection, Rgb, Scene, Sun,
+    Ambient, Background, Camera, Falloff, FovAxis, Light, Material, Model, Object, Pattern, Point, Projection, Rgb,
+    Scene, Sun,
 };
 use glam::DVec3;
 
@@ -17,7 +17,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let samples = arguments.next().map_or(Ok(1), |text| text.parse())?;
     let threads = arguments.next().map(|text| text.parse()).transpose()?;
     let scene = scene();
-    let options = Options { samples, threads, ..Options::of(&scene) };
+    let options = Options {
+        samples,
+        threads,
+        ..Options::of(&scene)
+    };
     let picture = render(&scene, &options, &())?;
     println!("{:#?}", picture.stats);
     std::fs::write(path, encode_png(&picture.image, &Tone::of(&scene.picture))?)?;
@@ -35,8 +39,16 @@ fn scene() -> Scene {
         model: Model::Phong,
         ..Material::default()
     };
-    let checker = Pattern::Checker { colors: [[0.85; 3], [0.25; 3]], size: 1.0 };
-    let ground = Material { color: checker, ambient: 0.08, specular: 0.0, ..Material::default() };
+    let checker = Pattern::Checker {
+        colors: [[0.85; 3], [0.25; 3]],
+        size: 1.0,
+    };
+    let ground = Material {
+        color: checker,
+        ambient: 0.08,
+        specular: 0.0,
+        ..Material::default()
+    };
     let about_z = |shape: Field, angle: f64| shape.rotate([0.0, 0.0, 1.0], angle);
     let objects = [
         ("ground", [0.0; 3], plane([0.0, 0.0, 1.0]).into()),
@@ -78,7 +90,10 @@ fn scene() -> Scene {
         camera: Some(Camera {
             eye: DVec3::new(0.0, -9.5, 4.2),
             target: DVec3::new(0.0, 0.0, 0.8),
-            projection: Projection::Perspective { fov: degrees(50.0), axis: FovAxis::Horizontal },
+            projection: Projection::Perspective {
+                fov: degrees(50.0),
+                axis: FovAxis::Horizontal,
+            },
             ..Camera::default()
         }),
         lights: vec![
@@ -94,7 +109,10 @@ fn scene() -> Scene {
                 ..Point::default()
             }),
         ],
-        ambient: Ambient { sky: [1.0; 3], ground: [1.0; 3] },
+        ambient: Ambient {
+            sky: [1.0; 3],
+            ground: [1.0; 3],
+        },
         occlusion: None,
         background: Background::Solid([0.55, 0.7, 0.9]),
         ..Scene::default()

@@ -3,8 +3,8 @@
 //! These return bytes. Where they go, and that nothing half-written is left behind, is the caller's concern.
 
 use crate::image::{Image, Tone};
-use exr::prelude::{Encoding, ImageAttributes, Layer, LayerAttributes, SpecificChannels, Text, Vec2, WritableImage};
 use exr::meta::attribute::Chromaticities;
+use exr::prelude::{Encoding, ImageAttributes, Layer, LayerAttributes, SpecificChannels, Text, Vec2, WritableImage};
 use std::fmt;
 use std::io::Cursor;
 
@@ -85,7 +85,10 @@ mod tests {
 
     #[test]
     fn a_png_holds_the_srgb_bytes() {
-        let tone = Tone { exposure: 0.5, ..Tone::default() };
+        let tone = Tone {
+            exposure: 0.5,
+            ..Tone::default()
+        };
         let file = encode_png(&picture(), &tone).expect("a file");
         let mut reader = png::Decoder::new(Cursor::new(file)).read_info().expect("a PNG");
         assert_eq!((reader.info().width, reader.info().height), (7, 5));

@@ -76,7 +76,10 @@ mod tests {
             let offsets = offsets(count);
             let mean = offsets.iter().sum::<DVec2>() / f64::from(count);
             assert!(mean.length() < 1e-12, "{count}: {mean}");
-            assert!(offsets.iter().all(|o| o.abs().max_element() < SUPPORT / 2.0 + 0.2), "{count}");
+            assert!(
+                offsets.iter().all(|o| o.abs().max_element() < SUPPORT / 2.0 + 0.2),
+                "{count}"
+            );
         }
     }
 
@@ -84,7 +87,9 @@ mod tests {
     fn rays_follow_the_window() {
         // The window itself, summed over each tenth of its width, against the rays that land there.
         let window = |x: f64| {
-            (0..4).map(|order| TERMS[order] * (TAU * order as f64 * x / SUPPORT).cos()).sum::<f64>()
+            (0..4)
+                .map(|order| TERMS[order] * (TAU * order as f64 * x / SUPPORT).cos())
+                .sum::<f64>()
         };
         let count = 40_000;
         let offsets = offsets(count);

@@ -56,9 +56,7 @@ mod view;
 pub use encode::{EncodeError, encode_exr, encode_png};
 pub use image::{Image, Tone, srgb_decode, srgb_encode8};
 pub use layers::{Layer, Layers};
-pub use options::{
-    MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_TILE, Options, OptionsError, Rect,
-};
+pub use options::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_TILE, Options, OptionsError, Rect};
 pub use prepare::{PrepareError, Renderer};
 pub use run::{Progress, RenderError, Rendered, render};
 pub use stats::{Rays, Stats, Times, Unresolved};

@@ -79,7 +79,15 @@ pub enum OptionsError {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { width: 640, height: 360, samples: 16, crop: None, threads: None, level: None, tile: 32 }
+        Self {
+            width: 640,
+            height: 360,
+            samples: 16,
+            crop: None,
+            threads: None,
+            level: None,
+            tile: 32,
+        }
     }
 }
 
@@ -113,10 +121,14 @@ impl Options {
         if let Some(threads) = self.threads.filter(|&threads| threads == 0 || threads > MAX_THREADS) {
             return Err(OptionsError::Threads(threads));
         }
-        let region = self.crop.unwrap_or(Rect { x: 0, y: 0, width, height });
-        let fits = |start: u32, size: u32, full: u32| {
-            size > 0 && start.checked_add(size).is_some_and(|end| end <= full)
-        };
+        let region = self.crop.unwrap_or(Rect {
+            x: 0,
+            y: 0,
+            width,
+            height,
+        });
+        let fits =
+            |start: u32, size: u32, full: u32| size > 0 && start.checked_add(size).is_some_and(|end| end <= full);
         if !fits(region.x, region.width, width) || !fits(region.y, region.height, height) {
             return Err(OptionsError::Crop(region));
         }
@@ -128,8 +140,9 @@ impl Options {
 
     /// How many threads will be started for `tiles` tiles.
     pub(crate) fn threads_for(&self, tiles: usize) -> usize {
-        let wanted =
-            self.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, Into::into));
+        let wanted = self
+            .threads
+            .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, Into::into));
         wanted.min(tiles).clamp(1, MAX_THREADS)
     }
 }
@@ -151,9 +164,7 @@ impl Rect {
             })
         };
         cells(self.y, self.height)
-            .flat_map(|(y, height)| {
-                cells(self.x, self.width).map(move |(x, width)| Rect { x, y, width, height })
-            })
+            .flat_map(|(y, height)| cells(self.x, self.width).map(move |(x, width)| Rect { x, y, width, height }))
             .collect()
     }
 }
@@ -162,16 +173,25 @@ impl fmt::Display for OptionsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Size { width, height } => {
-                write!(f, "a picture of {width} x {height} pixels: each side must be 1 to {MAX_SIDE}")
+                write!(
+                    f,
+                    "a picture of {width} x {height} pixels: each side must be 1 to {MAX_SIDE}"
+                )
             }
             Self::Pixels(pixels) => {
-                write!(f, "{pixels} pixels are more than the {MAX_PIXELS} that are computed at once")
+                write!(
+                    f,
+                    "{pixels} pixels are more than the {MAX_PIXELS} that are computed at once"
+                )
             }
             Self::Samples(samples) => {
                 write!(f, "{samples} samples per pixel: there must be 1 to {MAX_SAMPLES}")
             }
             Self::Crop(Rect { x, y, width, height }) => {
-                write!(f, "the crop of {width} x {height} pixels at ({x}, {y}) is empty or leaves the frame")
+                write!(
+                    f,
+                    "the crop of {width} x {height} pixels at ({x}, {y}) is empty or leaves the frame"
+                )
             }
             Self::Threads(threads) => write!(f, "{threads} threads: there must be 1 to {MAX_THREADS}"),
             Self::Tile(tile) => write!(f, "tiles of {tile} pixels: their side must be 1 to {MAX_TILE}"),
@@ -210,19 +230,81 @@ mod tests {
 
     #[test]
     fn impossible_options_are_refused() {
-        let good = Options { width: 20, height: 10, ..Options::default() };
-        assert_eq!(good.region(), Ok(Rect { x: 0, y: 0, width: 20, height: 10 }));
-        let rect = Rect { x: 15, y: 0, width: 6, height: 10 };
-        let wraps = Rect { x: u32::MAX, y: 0, width: 6, height: 10 };
+        let good = Options {
+            width: 20,
+            height: 10,
+            ..Options::default()
+        };
+        assert_eq!(
+            good.region(),
+            Ok(Rect {
+                x: 0,
+                y: 0,
+                width: 20,
+                height: 10
+            })
+        );
+        let rect = Rect {
+            x: 15,
+            y: 0,
+            width: 6,
+            height: 10,
+        };
+        let wraps = Rect {
+            x: u32::MAX,
+            y: 0,
+            width: 6,
+            height: 10,
+        };
         for (bad, error) in [
-            (Options { width: 0, ..good.clone() }, OptionsError::Size { width: 0, height: 10 }),
-            (Options { samples: 0, ..good.clone() }, OptionsError::Samples(0)),
-            (Options { tile: 0, ..good.clone() }, OptionsError::Tile(0)),
-            (Options { threads: Some(0), ..good.clone() }, OptionsError::Threads(0)),
-            (Options { crop: Some(rect), ..good.clone() }, OptionsError::Crop(rect)),
-            (Options { crop: Some(wraps), ..good.clone() }, OptionsError::Crop(wraps)),
             (
-                Options { width: 1 << 17, height: 1 << 17, ..good.clone() },
+                Options {
+                    width: 0,
+                    ..good.clone()
+                },
+                OptionsError::Size { width: 0, height: 10 },
+            ),
+            (
+                Options {
+                    samples: 0,
+                    ..good.clone()
+                },
+                OptionsError::Samples(0),
+            ),
+            (
+                Options {
+                    tile: 0,
+                    ..good.clone()
+                },
+                OptionsError::Tile(0),
+            ),
+            (
+                Options {
+                    threads: Some(0),
+                    ..good.clone()
+                },
+                OptionsError::Threads(0),
+            ),
+            (
+                Options {
+                    crop: Some(rect),
+                    ..good.clone()
+                },
+                OptionsError::Crop(rect),
+            ),
+            (
+                Options {
+                    crop: Some(wraps),
+                    ..good.clone()
+                },
+                OptionsError::Crop(wraps),
+            ),
+            (
+                Options {
+                    width: 1 << 17,
+                    height: 1 << 17,
+                    ..good.clone()
+                },
                 OptionsError::Pixels(1 << 34),
             ),
         ] {

@@ -10,9 +10,7 @@ use crate::options::Options;
 use crate::view::{CameraError, View, framed};
 use freikugel_field::ray::ExactRay;
 use freikugel_field::simd::{self, Level};
-use freikugel_field::{
-    Aabb, Contract, Diagnostic, Extent, Field, MaterialId, Program, Structure, analyse,
-};
+use freikugel_field::{Aabb, Contract, Diagnostic, Extent, Field, MaterialId, Program, Structure, analyse};
 use freikugel_scene::{Camera, Material, Scene};
 use glam::DVec3;
 use std::fmt;
@@ -125,8 +123,9 @@ impl<'s> Renderer<'s> {
                 };
                 exact.push(Exact { ray, paint, structure });
             } else if analysis.extent != Extent::Empty {
-                let safe = safe_scale(&analysis.contract)
-                    .ok_or_else(|| PrepareError::Unmarchable { object: object.name.clone() })?;
+                let safe = safe_scale(&analysis.contract).ok_or_else(|| PrepareError::Unmarchable {
+                    object: object.name.clone(),
+                })?;
                 scale = scale.min(safe);
                 bounds = hull(bounds, analysis.extent);
                 marched.push(index);
@@ -151,9 +150,9 @@ impl<'s> Renderer<'s> {
                 }
             })
             .collect();
-        let is_uniform = paints.windows(2).all(|pair| {
-            std::ptr::eq(pair[0].material, pair[1].material) && pair[0].is_sheet == pair[1].is_sheet
-        });
+        let is_uniform = paints
+            .windows(2)
+            .all(|pair| std::ptr::eq(pair[0].material, pair[1].material) && pair[0].is_sheet == pair[1].is_sheet);
         let is_all_marched = marched.len() == scene.objects.len();
         Ok(Self {
             scene,
@@ -178,14 +177,21 @@ impl<'s> Renderer<'s> {
 
     /// The scene's camera, or the one that frames it in a picture of this size.
     pub fn camera(&self, width: u32, height: u32) -> Camera {
-        self.scene.camera.clone().unwrap_or_else(|| framed(self.extent, width, height))
+        self.scene
+            .camera
+            .clone()
+            .unwrap_or_else(|| framed(self.extent, width, height))
     }
 }
 
 /// The largest factor that makes field values safe steps.
 fn safe_scale(contract: &Contract) -> Option<f64> {
     let by_slope = contract.lipschitz.filter(|&slope| slope > 0.0).map(|slope| 1.0 / slope);
-    if contract.is_safe_step() { Some(by_slope.map_or(1.0, |scale| scale.max(1.0))) } else { by_slope }
+    if contract.is_safe_step() {
+        Some(by_slope.map_or(1.0, |scale| scale.max(1.0)))
+    } else {
+        by_slope
+    }
 }
 
 fn material(scene: &Scene, id: Option<MaterialId>) -> &Material {
@@ -271,15 +277,17 @@ impl<'r> Frame<'r> {
         let everything = renderer.everything.as_ref().map(program);
         let marched = renderer.marched.as_ref().map(program);
         let clearance = |place: DVec3| {
-            everything.as_ref().or(marched.as_ref()).map_or(f64::INFINITY, |field| field.value(place))
+            everything
+                .as_ref()
+                .or(marched.as_ref())
+                .map_or(f64::INFINITY, |field| field.value(place))
         };
         let lamps = scene
             .lights
             .iter()
             .enumerate()
             .map(|(index, light)| {
-                Lamp::new(light, origin, clearance)
-                    .map_err(|fault| PrepareError::Light { index, fault })
+                Lamp::new(light, origin, clearance).map_err(|fault| PrepareError::Light { index, fault })
             })
             .collect::<Result<_, _>>()?;
 
@@ -312,7 +320,10 @@ impl<'r> Frame<'r> {
                 Extent::Finite(bounds) => {
                     let far = bounds.min.abs().max(bounds.max.abs()).max_element();
                     let margin = BOX_MARGIN * bounds.size().max_element() + ROUNDING * far;
-                    Some(Aabb { min: bounds.min - margin, max: bounds.max + margin })
+                    Some(Aabb {
+                        min: bounds.min - margin,
+                        max: bounds.max + margin,
+                    })
                 }
                 Extent::Empty | Extent::Unbounded => None,
             },
@@ -345,7 +356,9 @@ impl OcclusionSamples {
     fn new(strength: f64, reach: f64) -> Self {
         let height = |sample: usize| reach * (sample + 1) as f64 / OCCLUSION_SAMPLES as f64;
         let weight = |sample: usize| 0.5f64.powi(sample as i32 + 1);
-        let all: f64 = (0..OCCLUSION_SAMPLES).map(|sample| height(sample) * weight(sample)).sum();
+        let all: f64 = (0..OCCLUSION_SAMPLES)
+            .map(|sample| height(sample) * weight(sample))
+            .sum();
         let strength = if all > 0.0 { strength / all } else { 0.0 };
         Self {
             heights: std::array::from_fn(|sample| height(sample) as f32),
@@ -367,7 +380,10 @@ impl fmt::Display for PrepareError {
                 Ok(())
             }
             Self::Unmarchable { object } => {
-                write!(f, "the field of `{object}` has no known scale, so no step along a ray is safe")
+                write!(
+                    f,
+                    "the field of `{object}` has no known scale, so no step along a ray is safe"
+                )
             }
             Self::Camera(fault) => fault.fmt(f),
             Self::Light { index, fault } => write!(f, "light {index}: {fault}"),

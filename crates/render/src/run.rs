@@ -72,11 +72,7 @@ pub enum RenderError {
 ///
 /// # Errors
 /// If the scene or the options are faulty, or the rendering was cancelled.
-pub fn render(
-    scene: &Scene,
-    options: &Options,
-    progress: &dyn Progress,
-) -> Result<Rendered, RenderError> {
+pub fn render(scene: &Scene, options: &Options, progress: &dyn Progress) -> Result<Rendered, RenderError> {
     Renderer::new(scene)?.render(options, progress)
 }
 
@@ -128,7 +124,10 @@ impl Renderer<'_> {
             }
         })?;
         stats.times.wall = start.elapsed();
-        Ok(Rendered { image: Image::new(region.width, region.height, pixels), stats })
+        Ok(Rendered {
+            image: Image::new(region.width, region.height, pixels),
+            stats,
+        })
     }
 
     /// Computes what lies at the centre of each pixel, other than its colour. The samples of the options count for
@@ -136,14 +135,16 @@ impl Renderer<'_> {
     ///
     /// # Errors
     /// As [`Renderer::render`].
-    pub fn layers(
-        &self,
-        options: &Options,
-        progress: &dyn Progress,
-    ) -> Result<(Layers, Stats), RenderError> {
+    pub fn layers(&self, options: &Options, progress: &dyn Progress) -> Result<(Layers, Stats), RenderError> {
         let start = Instant::now();
         let region = options.region()?;
-        let frame = Frame::new(self, &Options { samples: 1, ..options.clone() })?;
+        let frame = Frame::new(
+            self,
+            &Options {
+                samples: 1,
+                ..options.clone()
+            },
+        )?;
         let mut pixels = filled(region, Layers::NOTHING)?;
         let mut stats = in_tiles(&frame, options, region, progress, &mut pixels, || {
             let frame = &frame;
@@ -204,7 +205,11 @@ where
     let threads = options.threads_for(tiles.len());
     let next = AtomicUsize::new(0);
     let blank = pixels[0];
-    let shared = Mutex::new(Shared { pixels, done: 0, stats: Stats::default() });
+    let shared = Mutex::new(Shared {
+        pixels,
+        done: 0,
+        stats: Stats::default(),
+    });
     let work = || {
         let start = Instant::now();
         let mut tracer = Tracer::new(frame);
@@ -238,8 +243,7 @@ where
         }
         work();
     });
-    let Shared { done, mut stats, .. } =
-        shared.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let Shared { done, mut stats, .. } = shared.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     if done < region.pixels() {
         return Err(RenderError::Cancelled);
     }

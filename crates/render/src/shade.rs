@@ -62,7 +62,13 @@ impl Tracer<'_> {
             self.find_lit(lamp, &mut memory.lit);
             self.cast_shadows(lamp, &mut memory.lit);
             for lit in memory.lit.iter().filter(|lit| lit.factor > 0.0) {
-                let Hit { ray, normal, viewer, surface, .. } = &self.hits[lit.hit as usize];
+                let Hit {
+                    ray,
+                    normal,
+                    viewer,
+                    surface,
+                    ..
+                } = &self.hits[lit.hit as usize];
                 let Incoming { direction, light, .. } = lit.incoming;
                 let color = &mut colors[*ray as usize];
                 let reflected = surface.reflected(light, *normal, *viewer, direction, lit.n_dot_l);
@@ -75,7 +81,9 @@ impl Tracer<'_> {
         openness.clear();
         openness.resize(self.hits.len(), 1.0);
         let Some(occlusion) = self.frame.occlusion else { return };
-        let Some(field) = self.everything.as_mut().or(self.marched.as_mut()) else { return };
+        let Some(field) = self.everything.as_mut().or(self.marched.as_mut()) else {
+            return;
+        };
         self.cloud.clear();
         for hit in &self.hits {
             for height in occlusion.heights {
@@ -102,10 +110,17 @@ impl Tracer<'_> {
             if hit.surface.diffuse <= 0.0 && hit.surface.specular <= 0.0 {
                 continue;
             }
-            let Some(incoming) = lamp.at(hit.position) else { continue };
+            let Some(incoming) = lamp.at(hit.position) else {
+                continue;
+            };
             let n_dot_l = dot(hit.normal, incoming.direction);
             if n_dot_l > 0.0 {
-                lit.push(Lit { hit: index as u32, incoming, n_dot_l, factor: 1.0 });
+                lit.push(Lit {
+                    hit: index as u32,
+                    incoming,
+                    n_dot_l,
+                    factor: 1.0,
+                });
             }
         }
     }
@@ -118,7 +133,9 @@ impl Tracer<'_> {
         self.stats.rays.shadow += lit.len() as u64;
         for (id, lit) in lit.iter_mut().enumerate() {
             let hit = &self.hits[lit.hit as usize];
-            let Incoming { direction, distance, .. } = lit.incoming;
+            let Incoming {
+                direction, distance, ..
+            } = lit.incoming;
             let origin = add_scaled(hit.position, SHADOW_START * hit.uncertainty, hit.normal);
             let ray = Ray {
                 origin: frame.origin + DVec3::from(origin.map(f64::from)),
@@ -133,7 +150,9 @@ impl Tracer<'_> {
                 Dimming::Sharpness(sharpness) => Some(sharpness),
                 Dimming::Clearance(clearance) => Some(distance / clearance),
             };
-            let Some([near, far]) = frame.shadow_span(&ray, sharpness) else { continue };
+            let Some([near, far]) = frame.shadow_span(&ray, sharpness) else {
+                continue;
+            };
             let far = far.min(distance);
             if self.marched.is_none() || near >= far {
                 continue;
@@ -157,9 +176,7 @@ impl Tracer<'_> {
         let pace = frame.pace;
         self.stats.evaluations += match lamp.dimming {
             Dimming::None | Dimming::Hard => self.march.hard(field, pace, &mut self.ends),
-            Dimming::Sharpness(_) | Dimming::Clearance(_) => {
-                self.march.soft(field, pace, &mut self.ends)
-            }
+            Dimming::Sharpness(_) | Dimming::Clearance(_) => self.march.soft(field, pace, &mut self.ends),
         };
         for end in &self.ends {
             lit[end.id as usize].factor = end.factor;
@@ -173,7 +190,10 @@ impl Frame<'_> {
     /// Whether an exact object lies on the ray before `distance`.
     fn is_shadowed_exactly(&self, ray: &Ray, distance: f32) -> bool {
         self.renderer.exact.iter().any(|exact| {
-            exact.ray.hit(ray.origin, ray.direction).is_some_and(|t| t < f64::from(distance))
+            exact
+                .ray
+                .hit(ray.origin, ray.direction)
+                .is_some_and(|t| t < f64::from(distance))
         })
     }
 

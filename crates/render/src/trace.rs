@@ -169,12 +169,17 @@ impl<'f> Tracer<'f> {
         if start.span[1] > 0.0 {
             self.march.push(&start);
         }
-        self.rays.push(CameraRay { ray, exact, begin, start, steps: 0 });
+        self.rays.push(CameraRay {
+            ray,
+            exact,
+            begin,
+            start,
+            steps: 0,
+        });
         self.stats.rays.camera += 1;
     }
 
-    /// Traces all rays of the wave and collects what they hit. Materials and objects are found where `surfaces` asks
-    /// for them.
+    /// Traces all rays of the wave and collects what they hit.
     pub(crate) fn trace(&mut self) {
         self.land();
         self.collect_marched();
@@ -207,7 +212,8 @@ impl<'f> Tracer<'f> {
                     }
                 };
                 if lands {
-                    self.cloud.push(add_scaled(ray.start.origin, end.t, ray.start.direction));
+                    self.cloud
+                        .push(add_scaled(ray.start.origin, end.t, ray.start.direction));
                 }
                 lands
             });
@@ -220,13 +226,22 @@ impl<'f> Tracer<'f> {
                 let limit = start.tolerance[0] + start.tolerance[1] * end.t;
                 if end.fate == Fate::Hit && end.value > FALSE_HIT * limit * in_values {
                     start.tolerance = start.tolerance.map(|number| number * in_values);
-                    self.march.push(&Start { span: [end.t, start.span[1]], steps: end.steps, ..*start });
+                    self.march.push(&Start {
+                        span: [end.t, start.span[1]],
+                        steps: end.steps,
+                        ..*start
+                    });
                 } else {
                     if end.t == 0.0 && end.value < -limit {
                         self.stats.inside += 1;
                     }
                     let position = self.cloud.point_at(index);
-                    self.landings.push(Landing { ray: end.id, t: end.t, position, gradient });
+                    self.landings.push(Landing {
+                        ray: end.id,
+                        t: end.t,
+                        position,
+                        gradient,
+                    });
                 }
             }
             if self.march.is_empty() {
@@ -253,12 +268,15 @@ impl<'f> Tracer<'f> {
             self.stats.evaluations += self.cloud.shares(field, &mut self.shares);
         }
         for (index, landing) in self.landings.iter().enumerate() {
-            let CameraRay { ray, begin, start, .. } = &self.rays[landing.ray as usize];
+            let CameraRay { begin, start, .. } = &self.rays[landing.ray as usize];
             let share = |region: usize| self.shares.of(region)[index];
             let main = match asks_for_shares {
-                true => (1..paints.len()).fold(0, |best, region| {
-                    if share(region) > share(best) { region } else { best }
-                }),
+                true => (1..paints.len()).fold(
+                    0,
+                    |best, region| {
+                        if share(region) > share(best) { region } else { best }
+                    },
+                ),
                 false => 0,
             };
             let viewer = start.direction.map(|x| -x);
@@ -273,7 +291,12 @@ impl<'f> Tracer<'f> {
             let distance = begin + f64::from(landing.t);
             let offset = length(landing.position);
             let uncertainty = frame.tolerance.at(distance, f64::from(offset))[0] as f32;
-            let footprint = Footprint { width: frame.width_at(distance), normal, viewer, uncertainty };
+            let footprint = Footprint {
+                width: frame.width_at(distance),
+                normal,
+                viewer,
+                uncertainty,
+            };
             let point = frame.origin + DVec3::from(landing.position.map(f64::from));
             let mut surface = Surface::of(paints[main].material, point, &footprint);
             if asks_for_shares {
@@ -299,7 +322,6 @@ impl<'f> Tracer<'f> {
                 gradient: slope.clamp(FLATTEST, 1.0),
                 surface,
             });
-            debug_assert!(ray.direction.is_finite());
         }
     }
 
@@ -314,7 +336,9 @@ impl<'f> Tracer<'f> {
             self.cloud.clear();
             let first = self.hits.len();
             for (id, CameraRay { ray, exact, start, .. }) in self.rays.iter().enumerate() {
-                let Some((_, distance)) = exact.filter(|(object, _)| *object == index) else { continue };
+                let Some((_, distance)) = exact.filter(|(object, _)| *object == index) else {
+                    continue;
+                };
                 let point = ray.origin + ray.direction * distance;
                 let position = (point - frame.origin).as_vec3().to_array();
                 self.cloud.push(position);
@@ -335,6 +359,7 @@ impl<'f> Tracer<'f> {
             }
             self.stats.evaluations += self.cloud.gradients(evaluator);
             for (place, hit) in self.hits[first..].iter_mut().enumerate() {
+                self.stats.inside += u64::from(hit.distance == 0.0 && !paint.is_sheet);
                 let gradient = self.cloud.gradient_at(place);
                 let normal = scaled(gradient, 1.0 / length(gradient));
                 let is_seen_from_behind = paint.is_sheet && dot(normal, hit.viewer) < 0.0;
@@ -385,11 +410,19 @@ impl Cloud {
     }
 
     fn gradient_at(&self, index: usize) -> Triple {
-        [self.gradient[0][index], self.gradient[1][index], self.gradient[2][index]]
+        [
+            self.gradient[0][index],
+            self.gradient[1][index],
+            self.gradient[2][index],
+        ]
     }
 
     fn points(point: &[Vec<f32>; 3]) -> Points<'_> {
-        Points { x: &point[0], y: &point[1], z: &point[2] }
+        Points {
+            x: &point[0],
+            y: &point[1],
+            z: &point[2],
+        }
     }
 
     /// Computes the field at the points and returns how many there are.

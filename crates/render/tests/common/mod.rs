@@ -9,20 +9,26 @@ use freikugel_field::shapes::{Translate, plane, sphere};
 use freikugel_field::{Field, MaterialId};
 use freikugel_render::{Image, Options, Rendered, render};
 use freikugel_scene::{
-    Ambient, Background, Camera, Falloff, FovAxis, Light, Material, Model, Object, Pattern, Projection,
-    Scene, Shadow, Tracing,
+    Ambient, Background, Camera, Falloff, FovAxis, Light, Material, Model, Object, Pattern, Projection, Scene, Shadow,
+    Tracing,
 };
 use glam::DVec3;
 
 /// A scene with nothing in it: no light, black all around, to be traced as exactly as single precision allows.
 pub(crate) fn dark() -> Scene {
     Scene {
-        ambient: Ambient { sky: [0.0; 3], ground: [0.0; 3] },
+        ambient: Ambient {
+            sky: [0.0; 3],
+            ground: [0.0; 3],
+        },
         background: Background::Solid([0.0; 3]),
         occlusion: None,
         lights: Vec::new(),
         objects: Vec::new(),
-        tracing: Tracing { precision: 1e-6, ..Tracing::default() },
+        tracing: Tracing {
+            precision: 1e-6,
+            ..Tracing::default()
+        },
         ..Scene::default()
     }
 }
@@ -32,7 +38,11 @@ pub(crate) fn add(scene: &mut Scene, shape: impl Into<Field>, material: Material
     let id = MaterialId(scene.materials.len() as u32);
     scene.materials.push((format!("material {}", id.0), material));
     let name = format!("object {}", scene.objects.len());
-    scene.objects.push(Object { name, material: Some(id), shape: shape.into() });
+    scene.objects.push(Object {
+        name,
+        material: Some(id),
+        shape: shape.into(),
+    });
 }
 
 /// White, diffuse, nothing else.
@@ -58,7 +68,12 @@ pub(crate) fn from_above(z: f64, height: f64) -> Camera {
 
 /// Small pictures through pixel centres.
 pub(crate) fn options(width: u32, height: u32) -> Options {
-    Options { width, height, samples: 1, ..Options::default() }
+    Options {
+        width,
+        height,
+        samples: 1,
+        ..Options::default()
+    }
 }
 
 /// Renders, all being well.
@@ -115,9 +130,7 @@ impl Balls {
         let Some((t, normal, material)) = self.hit(origin, direction) else {
             return match scene.background {
                 Background::Solid(color) => rgb(color),
-                Background::Gradient { top, bottom } => {
-                    rgb(bottom).lerp(rgb(top), 0.5 + 0.5 * direction.z)
-                }
+                Background::Gradient { top, bottom } => rgb(bottom).lerp(rgb(top), 0.5 + 0.5 * direction.z),
             };
         };
         let point = origin + direction * t;
@@ -134,8 +147,7 @@ impl Balls {
             let (to_light, distance, power, shadow) = arriving(light, point);
             let n_dot_l = normal.dot(to_light);
             let start = point + normal * 1e-7;
-            let is_shadowed = shadow != Shadow::None
-                && self.hit(start, to_light).is_some_and(|(t, ..)| t < distance);
+            let is_shadowed = shadow != Shadow::None && self.hit(start, to_light).is_some_and(|(t, ..)| t < distance);
             if n_dot_l <= 0.0 || is_shadowed {
                 continue;
             }
@@ -161,13 +173,21 @@ fn arriving(light: &Light, point: DVec3) -> (DVec3, f64, DVec3, Shadow) {
         Falloff::Polynomial([a, b, c]) => 1.0 / (f64::from(a) + f64::from(b) * r + f64::from(c) * r * r),
     };
     match light {
-        Light::Sun(sun) => {
-            (sun.direction.normalize(), f64::INFINITY, power(sun.color, sun.intensity), sun.shadow)
-        }
+        Light::Sun(sun) => (
+            sun.direction.normalize(),
+            f64::INFINITY,
+            power(sun.color, sun.intensity),
+            sun.shadow,
+        ),
         Light::Point(lamp) => {
             let way = lamp.position - point;
             let r = way.length();
-            (way / r, r, power(lamp.color, lamp.intensity) * fall(lamp.falloff, r), lamp.shadow)
+            (
+                way / r,
+                r,
+                power(lamp.color, lamp.intensity) * fall(lamp.falloff, r),
+                lamp.shadow,
+            )
         }
         Light::Spot(spot) => {
             let way = spot.position - point;
@@ -176,7 +196,12 @@ fn arriving(light: &Light, point: DVec3) -> (DVec3, f64, DVec3, Shadow) {
             let (outer, inner) = (spot.angle / 2.0, spot.angle / 2.0 * (1.0 - spot.softness));
             let x = ((cosine - outer.cos()) / (inner.cos() - outer.cos())).clamp(0.0, 1.0);
             let share = x * x * (3.0 - 2.0 * x);
-            (way / r, r, power(spot.color, spot.intensity) * fall(spot.falloff, r) * share, spot.shadow)
+            (
+                way / r,
+                r,
+                power(spot.color, spot.intensity) * fall(spot.falloff, r) * share,
+                spot.shadow,
+            )
         }
     }
 }
@@ -218,13 +243,7 @@ const EDGE: f64 = 0.02;
 /// Renders the scene and compares pixels with the reference: their colours must lie between those it has within `reach`
 /// pixels, give or take 0.2 % of white or of what is brighter. Pixels are left out where these differ by too much, because
 /// an edge of a ball, a shadow, or a cell runs through; at most `left_out` of all may be.
-pub(crate) fn compare(
-    scene: &Scene,
-    balls: &Balls,
-    size: (u32, u32),
-    reach: f64,
-    left_out: f64,
-) -> Image {
+pub(crate) fn compare(scene: &Scene, balls: &Balls, size: (u32, u32), reach: f64, left_out: f64) -> Image {
     let camera = scene.camera.clone().expect("a camera");
     let rendered = picture(scene, &options(size.0, size.1));
     assert_eq!(rendered.stats.unresolved.pixels, 0);
@@ -233,11 +252,7 @@ pub(crate) fn compare(
         for x in (STRIDE / 2..size.0).step_by(STRIDE as usize) {
             compared += 1;
             let at = |dx: f64, dy: f64| {
-                let (origin, direction) = camera_ray(
-                    &camera,
-                    size,
-                    (f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy),
-                );
+                let (origin, direction) = camera_ray(&camera, size, (f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy));
                 balls.color(scene, origin, direction)
             };
             let expected = at(0.0, 0.0);
