@@ -223,9 +223,16 @@ impl<'f> Tracer<'f> {
                 let gradient = self.cloud.gradient_at(index);
                 let slope = length(gradient);
                 let in_values = slope.max(FLATTEST) * pace.scale;
-                let limit = start.tolerance[0] + start.tolerance[1] * end.t;
-                if end.fate == Fate::Hit && end.value > FALSE_HIT * limit * in_values {
-                    start.tolerance = start.tolerance.map(|number| number * in_values);
+                let [base, growth] = start.tolerance;
+                let limit = base + growth * end.t;
+                // Rounding errors of values do not shrink with the slope.
+                let finer = [
+                    (base * in_values).max(rounding(length(start.origin))),
+                    (growth * in_values).max(rounding(1.0)),
+                ];
+                let is_false = end.value > FALSE_HIT * limit * in_values && end.value > finer[0] + finer[1] * end.t;
+                if end.fate == Fate::Hit && is_false {
+                    start.tolerance = finer;
                     self.march.push(&Start {
                         span: [end.t, start.span[1]],
                         steps: end.steps,
