@@ -86,13 +86,13 @@ impl Walk {
         let sound = self.arguments_are_sound(node);
         match (node.shape.arity(), node.children.len()) {
             (Arity::None, 0) | (Arity::One, 1) | (Arity::Many, 1..) => {}
-            (Arity::None, _) => return self.error(node, None, format!("{name} takes no shapes")),
+            (Arity::None, _) => return self.error(node, None, format!("`{name}` takes no shapes")),
             (Arity::One, _) => {
-                return self.error(node, None, format!("{name} takes exactly one shape"));
+                return self.error(node, None, format!("`{name}` takes exactly one shape"));
             }
             (Arity::Many, _) => {
                 let hint = Some("give at least one shape, or leave it out".into());
-                self.report(node, Severity::Error, None, format!("{name} has no shapes"), hint);
+                self.report(node, Severity::Error, None, format!("`{name}` has no shapes"), hint);
                 return None;
             }
         }
@@ -161,9 +161,9 @@ impl Walk {
                 param
                     .kind
                     .fault(&numbers)
-                    .map(|fault| format!("`{}` of {} {fault}", param.name, about.name))
+                    .map(|fault| format!("`{}` of `{}` {fault}", param.name, about.name))
             } else {
-                Some(format!("{} needs `{}`", about.name, param.name))
+                Some(format!("`{}` needs `{}`", about.name, param.name))
             };
             if let Some(fault) = fault {
                 self.error(node, Some(index), fault);
@@ -172,7 +172,7 @@ impl Walk {
             start = end;
         }
         if start < node.args.len() {
-            self.error(node, None, format!("{} has too many arguments", about.name));
+            self.error(node, None, format!("`{}` has too many arguments", about.name));
             sound = false;
         }
         sound

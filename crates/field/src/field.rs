@@ -149,19 +149,6 @@ impl Field {
         self.0.depth
     }
 
-    /// Gives the shape a material; a material painted on a part of it before stays.
-    #[must_use]
-    #[track_caller]
-    pub fn painted(self, material: MaterialId) -> Self {
-        Self::with_origin(
-            &shapes::PAINT,
-            [],
-            [self],
-            Some(material),
-            Origin::Code(Location::caller()),
-        )
-    }
-
     /// The node with parameter `name` set to `numbers`.
     ///
     /// # Panics

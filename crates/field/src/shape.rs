@@ -105,8 +105,8 @@ impl ParamKind {
         }
         let length = value.iter().map(|v| v * v).sum::<f64>().sqrt();
         match self {
-            Self::Length if value[0] < 0.0 => Some(format!("must not be negative, but is {}", value[0])),
-            Self::Positive if value[0] <= 0.0 => Some(format!("must be above 0, but is {}", value[0])),
+            Self::Length if value[0] < 0.0 => Some(format!("must not be negative, but is {:?}", value[0])),
+            Self::Positive if value[0] <= 0.0 => Some(format!("must be above 0, but is {:?}", value[0])),
             Self::Factor if value[0] == 0.0 => Some("must not be 0: it would flatten the shape".into()),
             Self::Size if value.iter().any(|&v| v <= 0.0) => Some("must be above 0 in every direction".into()),
             Self::Factors if value.contains(&0.0) => Some("must not be 0 in any direction".into()),

@@ -27,6 +27,22 @@ pub fn available() -> Vec<Level> {
     levels
 }
 
+/// The short name of an instruction set: `sse2`, `avx2`, `avx512`, or `native` on other machines than x86-64.
+pub fn name(level: Level) -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    let name = match level {
+        Level::Avx512(_) => "avx512",
+        Level::Avx2(_) => "avx2",
+        _ => "sse2",
+    };
+    #[cfg(not(target_arch = "x86_64"))]
+    let name = {
+        let _ = level;
+        "native"
+    };
+    name
+}
+
 /// Runs `$body` compiled for the instruction set of `$level`, with `$token` as the proof that it is there.
 #[cfg(target_arch = "x86_64")]
 macro_rules! dispatch {

@@ -1,5 +1,6 @@
 //! What the chaining methods take: anything that plainly stands for a value.
 
+use crate::{Falloff, Model, Overbright, Rgb, Shadow};
 use freikugel_field::Triple;
 use glam::DVec3;
 
@@ -26,6 +27,18 @@ numbers! {
     f32 => f32, f64;
     f64 => f32, f64;
 }
+
+macro_rules! themselves {
+    ($($Type:ty),+) => {$(
+        impl Argument<$Type> for $Type {
+            fn value(self) -> $Type {
+                self
+            }
+        }
+    )+};
+}
+
+themselves!(Rgb, Shadow, Falloff, Model, Overbright);
 
 impl<V: Into<Triple>> Argument<DVec3> for V {
     fn value(self) -> DVec3 {

@@ -19,9 +19,7 @@ record! {
         pub target: DVec3 = DVec3::ZERO, optional POINT;
         /// The direction that points up in the picture. Where the eye looks along it, the renderer takes another.
         pub up: DVec3 = DVec3::Z, optional DIRECTION, setter up;
-        /// How points fall on the picture: in perspective with an opening angle `fov` in degrees (from the lower to the
-        /// upper edge, or as `{ "horizontal": 60 }` from side to side), or orthographically with a `height` of the part
-        /// of the scene that is seen.
+        /// How points fall on the picture.
         pub projection as "fov": Projection = Projection::default(), optional FieldOfView, or "height" Height;
     }
 }
@@ -66,9 +64,7 @@ impl Camera {
     #[must_use]
     pub fn orthographic(self, height: impl Argument<f64>) -> Self {
         Self {
-            projection: Projection::Orthographic {
-                height: height.value(),
-            },
+            projection: Projection::Orthographic { height: height.value() },
             ..self
         }
     }
@@ -149,7 +145,7 @@ impl Notation<Projection> for FieldOfView {
     fn fault(&self, value: &Projection) -> Option<String> {
         match value {
             Projection::Perspective { fov, .. } => FOV.fault(fov),
-            Projection::Orthographic { height } => HEIGHT.fault(height),
+            Projection::Orthographic { .. } => None,
         }
     }
 
@@ -166,10 +162,13 @@ impl Notation<Projection> for FieldOfView {
 
     fn schema(&self, definitions: &mut Definitions) -> Json {
         let angle = Notation::<f64>::schema(&FOV, definitions);
+        let named: serde_json::Map<_, _> = AXES.map(|axis| (axis.to_string(), angle.clone())).into_iter().collect();
         json!({
+            "description": "The opening angle in degrees from the lower to the upper edge of the picture, or \
+                as { \"horizontal\": 60 } from side to side.",
             "anyOf": [angle, {
                 "type": "object",
-                "properties": AXES.map(|axis| (axis.to_string(), angle.clone())).into_iter().collect::<serde_json::Map<_, _>>(),
+                "properties": named,
                 "additionalProperties": false,
                 "minProperties": 1,
                 "maxProperties": 1,
@@ -188,6 +187,13 @@ impl Notation<Projection> for Height {
             .map(|height| Projection::Orthographic { height })
     }
 
+    fn fault(&self, value: &Projection) -> Option<String> {
+        match value {
+            Projection::Perspective { .. } => None,
+            Projection::Orthographic { height } => HEIGHT.fault(height),
+        }
+    }
+
     fn write(&self, value: &Projection) -> Option<Json> {
         match value {
             Projection::Perspective { .. } => None,
@@ -196,6 +202,10 @@ impl Notation<Projection> for Height {
     }
 
     fn schema(&self, definitions: &mut Definitions) -> Json {
-        Notation::<f64>::schema(&HEIGHT, definitions)
+        let mut schema = Notation::<f64>::schema(&HEIGHT, definitions);
+        schema["description"] =
+            "The height of the part of the scene that is seen, for an orthographic picture instead of a perspective one."
+                .into();
+        schema
     }
 }

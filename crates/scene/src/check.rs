@@ -60,14 +60,13 @@ impl Check {
 
     fn faults(&mut self, at: Option<&'static Location<'static>>, what: &str, faults: Vec<Fault>) {
         let origin = Origin::Code(at.unwrap_or(self.here));
-        self.diagnostics
-            .extend(faults.into_iter().map(|fault| Diagnostic {
-                severity: fault.severity,
-                message: format!("{what}: {}", fault.message),
-                hint: fault.hint,
-                origin,
-                param: None,
-            }));
+        self.diagnostics.extend(faults.into_iter().map(|fault| Diagnostic {
+            severity: fault.severity,
+            message: format!("{what}: {}", fault.message),
+            hint: fault.hint,
+            origin,
+            param: None,
+        }));
     }
 
     fn surroundings(&mut self, scene: &Scene) {
@@ -96,10 +95,7 @@ impl Check {
                 self.error(at, "the name of a material must not be empty".into());
             }
             if !names.insert(name) {
-                self.error(
-                    at,
-                    format!("another material is called {} already", quote(name)),
-                );
+                self.error(at, format!("another material is called {} already", quote(name)));
             }
             self.faults(at, &format!("material {}", quote(name)), material.faults());
         }
@@ -113,31 +109,17 @@ impl Check {
         for (index, object) in scene.objects.iter().enumerate() {
             let at = scene.origins.objects.get(index).copied().flatten();
             if !names.insert(&object.name) {
-                self.error(
-                    at,
-                    format!("another object is called {} already", quote(&object.name)),
-                );
+                self.error(at, format!("another object is called {} already", quote(&object.name)));
             }
-            self.faults(
-                at,
-                &format!("object {}", quote(&object.name)),
-                object.faults(),
-            );
+            self.faults(at, &format!("object {}", quote(&object.name)), object.faults());
             let (analysis, faults) = analyse(&object.shape);
             self.diagnostics.extend(faults);
-            let is_foreign = object
-                .material
-                .is_some_and(|id| id.0 as usize >= scene.materials.len());
+            let is_foreign = object.material.is_some_and(|id| id.0 as usize >= scene.materials.len());
             // Without an analysis the tree may be too deep to walk through.
-            if is_foreign
-                || analysis.is_some() && is_painted_beyond(&object.shape, scene.materials.len())
-            {
+            if is_foreign || analysis.is_some() && is_painted_beyond(&object.shape, scene.materials.len()) {
                 self.error(
                     at,
-                    format!(
-                        "object {} has a material of another scene",
-                        quote(&object.name)
-                    ),
+                    format!("object {} has a material of another scene", quote(&object.name)),
                 );
             }
         }
@@ -148,8 +130,5 @@ impl Check {
 fn is_painted_beyond(field: &Field, count: usize) -> bool {
     let node = field.node();
     node.material.is_some_and(|id| id.0 as usize >= count)
-        || node
-            .children
-            .iter()
-            .any(|child| is_painted_beyond(child, count))
+        || node.children.iter().any(|child| is_painted_beyond(child, count))
 }

@@ -83,9 +83,7 @@ impl Notation<Rgb> for ColorNotation {
         if value.iter().all(|channel| channel.is_nan()) {
             return Some(format!("is not a colour: {FORMS}"));
         }
-        let is_sound = value
-            .iter()
-            .all(|&channel| channel.is_finite() && channel >= 0.0);
+        let is_sound = value.iter().all(|&channel| channel.is_finite() && channel >= 0.0);
         (!is_sound).then(|| "must have finite channels, none of them negative".into())
     }
 
@@ -109,12 +107,6 @@ impl Notation<Rgb> for ColorNotation {
 /// The ways to write a colour.
 const FORMS: &str = "a colour is \"#rrggbb\" or \"#rgb\", or linear [red, green, blue]";
 
-impl Argument<Rgb> for Rgb {
-    fn value(self) -> Rgb {
-        self
-    }
-}
-
 /// `#rrggbb` or `#rgb`. Any other text makes a colour that [`crate::Scene::check`] reports.
 impl Argument<Rgb> for &str {
     fn value(self) -> Rgb {
@@ -132,16 +124,7 @@ mod tests {
         let [half, ..] = from_hex("#bcbcbc").expect("a colour");
         assert!((half - 0.5029).abs() < 1e-4, "{half}");
         assert_eq!(from_hex("#c84"), from_hex("#cc8844"));
-        for wrong in [
-            "",
-            "#",
-            "c8825a",
-            "#c8825",
-            "#c8825a00",
-            "#+12345",
-            "#ääa",
-            "#12 456",
-        ] {
+        for wrong in ["", "#", "c8825a", "#c8825", "#c8825a00", "#+12345", "#ääa", "#12 456"] {
             assert_eq!(from_hex(wrong), None, "{wrong}");
         }
     }

@@ -32,11 +32,7 @@ const SURROUNDINGS: usize = 60;
 /// `name` is what the text is called, usually its path. With `color`, the result holds escape sequences for a terminal.
 /// At most [`MOST_REPORTED`] are shown and the rest counted.
 pub fn report(text: &str, name: &str, diagnostics: &[Diagnostic], color: bool) -> String {
-    let renderer = if color {
-        Renderer::styled()
-    } else {
-        Renderer::plain()
-    };
+    let renderer = if color { Renderer::styled() } else { Renderer::plain() };
     let lines = Lines::of(text);
     let mut report = String::new();
     for diagnostic in diagnostics.iter().take(MOST_REPORTED) {
@@ -54,16 +50,10 @@ fn groups<'a>(lines: &Lines<'a>, name: &'a str, diagnostic: &'a Diagnostic) -> V
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
-    let hint = diagnostic
-        .hint
-        .as_deref()
-        .map(|hint| Level::HELP.message(hint));
+    let hint = diagnostic.hint.as_deref().map(|hint| Level::HELP.message(hint));
     let title = level.clone().primary_title(diagnostic.message.as_str());
     let start = lines.text.floor_char_boundary(diagnostic.span.start);
-    let end = lines
-        .text
-        .floor_char_boundary(diagnostic.span.end)
-        .max(start);
+    let end = lines.text.floor_char_boundary(diagnostic.span.end).max(start);
     let line = lines.at(start);
     let text = lines.line(line);
     // Only the first line of a long value is shown: its beginning says which one it is.
@@ -82,9 +72,7 @@ fn groups<'a>(lines: &Lines<'a>, name: &'a str, diagnostic: &'a Diagnostic) -> V
     let shift = before.len();
     let excerpt = Snippet::source(format!("{before}{}{after}", &text[left..right]))
         .line_start(line + 1)
-        .annotation(
-            AnnotationKind::Primary.span(from - left + shift..to.min(right) - left + shift),
-        );
+        .annotation(AnnotationKind::Primary.span(from - left + shift..to.min(right) - left + shift));
     let column = text[..from].chars().count() + 1;
     vec![
         title.element(Origin::path(name).line(line + 1).char_column(column)),
@@ -117,10 +105,7 @@ impl<'a> Lines<'a> {
     }
 
     fn line(&self, line: usize) -> &'a str {
-        let end = self
-            .starts
-            .get(line + 1)
-            .map_or(self.text.len(), |&next| next - 1);
+        let end = self.starts.get(line + 1).map_or(self.text.len(), |&next| next - 1);
         self.text[self.starts[line]..end].trim_end_matches('\r')
     }
 }

@@ -1,9 +1,9 @@
 //! Scenes of signed distance fields: the document.
 //!
 //! A [`Scene`] is plain data: [`Object`]s with shapes (fields of `freikugel-field`), [`Material`]s, [`Light`]s, a
-//! [`Camera`], and how the picture is taken. It is read from JSON by [`read`], which reports all mistakes at once with
+//! [`Camera`], and how the picture is taken. It is read from JSON by [`read()`], which reports all mistakes at once with
 //! their places, and [`report`] prints these for a person; or it is built in code, and [`Scene::check`] finds the same
-//! mistakes there. [`schema`] describes the files to other programs.
+//! mistakes there. [`schema()`] describes the files to other programs.
 //!
 //! ```
 //! use freikugel_field::shapes::*;

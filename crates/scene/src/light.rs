@@ -163,9 +163,7 @@ impl Light {
             .color([0.75, 0.85, 1.0])
             .intensity(0.3)
             .shadow(Shadow::None);
-        let rim = Sun::towards([-0.5, 1.0, 0.7])
-            .intensity(0.4)
-            .shadow(Shadow::None);
+        let rim = Sun::towards([-0.5, 1.0, 0.7]).intensity(0.4).shadow(Shadow::None);
         let key = Sun::towards([-0.3, -1.0, 1.4])
             .color([1.0, 0.95, 0.86])
             .shadow(Shadow::Hardness(12.0));
@@ -236,10 +234,7 @@ pub enum Falloff {
 
 struct FalloffNotation;
 
-const FALLOFFS: [(&str, Falloff); 2] = [
-    ("none", Falloff::None),
-    ("inverse_square", Falloff::InverseSquare),
-];
+const FALLOFFS: [(&str, Falloff); 2] = [("none", Falloff::None), ("inverse_square", Falloff::InverseSquare)];
 
 impl Notation<Falloff> for FalloffNotation {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Falloff> {
@@ -248,9 +243,7 @@ impl Notation<Falloff> for FalloffNotation {
             let index = notation::index_of(reader, value, &name.value, names)?;
             return Some(FALLOFFS[index].1);
         }
-        let coefficients = reader
-            .numbers(value, ["c0", "c1", "c2"])?
-            .map(|number| number as f32);
+        let coefficients = reader.numbers(value, ["c0", "c1", "c2"])?.map(|number| number as f32);
         let falloff = Falloff::Polynomial(coefficients);
         reader.sound(value, falloff, self.fault(&falloff))
     }
@@ -267,14 +260,8 @@ impl Notation<Falloff> for FalloffNotation {
 
     fn write(&self, value: &Falloff) -> Option<Json> {
         Some(match value {
-            Falloff::Polynomial(coefficients) => {
-                coefficients.map(notation::tidy_f32).to_vec().into()
-            }
-            named => FALLOFFS
-                .iter()
-                .find(|(_, falloff)| falloff == named)?
-                .0
-                .into(),
+            Falloff::Polynomial(coefficients) => coefficients.map(notation::tidy_f32).to_vec().into(),
+            named => FALLOFFS.iter().find(|(_, falloff)| falloff == named)?.0.into(),
         })
     }
 

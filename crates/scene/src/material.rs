@@ -29,7 +29,7 @@ record! {
         /// Light that the surface sends out by itself.
         pub emissive: Rgb = BLACK, optional ColorNotation, setter emissive;
         /// How the highlight is computed.
-        pub model: Model = Model::BlinnPhong, optional ChoiceNotation;
+        pub model: Model = Model::BlinnPhong, optional ChoiceNotation, setter model;
     }
     checked by energy_faults
 }
@@ -44,11 +44,7 @@ impl Material {
     }
 
     /// A material of cubes in two colours with edges of length `size`.
-    pub fn checker(
-        one: impl Argument<Rgb>,
-        other: impl Argument<Rgb>,
-        size: impl Argument<f64>,
-    ) -> Self {
+    pub fn checker(one: impl Argument<Rgb>, other: impl Argument<Rgb>, size: impl Argument<f64>) -> Self {
         let color = Pattern::Checker {
             colors: [one.value(), other.value()],
             size: size.value(),
@@ -57,12 +53,6 @@ impl Material {
             color,
             ..Self::default()
         }
-    }
-
-    /// The same with highlights computed another way.
-    #[must_use]
-    pub fn model(self, model: Model) -> Self {
-        Self { model, ..self }
     }
 }
 
@@ -147,10 +137,7 @@ impl Notation<[Rgb; 2]> for Pair {
             return None;
         };
         // Both are read before either ends this, so that both may be reported.
-        let (one, other) = (
-            ColorNotation.read(reader, one),
-            ColorNotation.read(reader, other),
-        );
+        let (one, other) = (ColorNotation.read(reader, one), ColorNotation.read(reader, other));
         Some([one?, other?])
     }
 
@@ -159,12 +146,7 @@ impl Notation<[Rgb; 2]> for Pair {
     }
 
     fn write(&self, value: &[Rgb; 2]) -> Option<Json> {
-        Some(
-            value
-                .iter()
-                .map(|color| ColorNotation.write(color))
-                .collect(),
-        )
+        Some(value.iter().map(|color| ColorNotation.write(color)).collect())
     }
 
     fn schema(&self, definitions: &mut Definitions) -> Json {
@@ -181,8 +163,7 @@ impl Notation<Pattern> for PatternNotation {
         }
         let (_, value) = reader.variant(value, "a pattern", &[Checker::NAME])?;
         let label = quote(Checker::NAME);
-        let Checker { colors, size } =
-            reader.labelled(label, |reader| Checker::read(reader, value))?;
+        let Checker { colors, size } = reader.labelled(label, |reader| Checker::read(reader, value))?;
         Some(Pattern::Checker { colors, size })
     }
 
@@ -199,9 +180,7 @@ impl Notation<Pattern> for PatternNotation {
     fn write(&self, value: &Pattern) -> Option<Json> {
         match value {
             Pattern::Solid(color) => ColorNotation.write(color),
-            &Pattern::Checker { colors, size } => {
-                Some(json!({ Checker::NAME: Checker { colors, size }.write() }))
-            }
+            &Pattern::Checker { colors, size } => Some(json!({ Checker::NAME: Checker { colors, size }.write() })),
         }
     }
 

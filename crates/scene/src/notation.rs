@@ -8,7 +8,7 @@ mod number;
 mod vector;
 
 pub(crate) use choice::{Choice, ChoiceNotation, choice, index_of};
-pub(crate) use number::{Flag, Number, tidy, tidy_f32};
+pub(crate) use number::{Flag, Number, tidy, tidy_degrees, tidy_f32};
 pub(crate) use vector::{DIRECTION, POINT, direction_schema, named_direction, numbers_schema};
 
 use crate::reader::Reader;

@@ -16,7 +16,7 @@ record! {
     /// A shape with a name and a material.
     #[derive(Clone, Debug)]
     pub struct Object = "object" {
-        /// What it is called: every object of a scene otherwise. Objects without a name are numbered.
+        /// What it is called; no two objects share a name. Objects without one are numbered.
         pub name: String = String::new(), optional NameNotation;
         /// The material of the parts that are not painted; an index into the scene's materials in code, a name in files.
         pub material: Option<MaterialId> = None, optional Maybe(MaterialNotation);
@@ -72,10 +72,7 @@ impl Notation<MaterialId> for MaterialNotation {
         let hint = match closest(&name.value, names.iter().copied()) {
             Some(guess) => format!("did you mean `{guess}`?"),
             None if names.is_empty() => "define it under `materials`".into(),
-            None => format!(
-                "the scene has {}",
-                listed(names.into_iter().take(MOST_LISTED))
-            ),
+            None => format!("the scene has {}", listed(names.into_iter().take(MOST_LISTED))),
         };
         let message = format!("there is no material {}", quote(&name.value));
         reader.error(span(value), message, Some(hint));
@@ -109,15 +106,9 @@ impl Notation<Vec<(String, Material)>> for MaterialsNotation {
         for prop in &object.properties {
             let name = prop.name.as_str();
             if name.is_empty() {
-                reader.error(
-                    name_span(prop),
-                    "the name of a material must not be empty",
-                    None,
-                );
+                reader.error(name_span(prop), "the name of a material must not be empty", None);
             }
-            let material = reader.labelled(quote(name), |reader| {
-                RecordNotation.read(reader, &prop.value)
-            });
+            let material = reader.labelled(quote(name), |reader| RecordNotation.read(reader, &prop.value));
             let index = u32::try_from(materials.len()).unwrap_or(u32::MAX);
             if names.insert(name.to_string(), index).is_some() {
                 reader.duplicate(prop);
@@ -130,9 +121,7 @@ impl Notation<Vec<(String, Material)>> for MaterialsNotation {
     }
 
     fn write(&self, value: &Vec<(String, Material)>) -> Option<Json> {
-        let entry = |(name, material): &(String, Material)| {
-            Some((name.clone(), RecordNotation.write(material)?))
-        };
+        let entry = |(name, material): &(String, Material)| Some((name.clone(), RecordNotation.write(material)?));
         Some(Json::Object(value.iter().filter_map(entry).collect()))
     }
 
@@ -155,15 +144,11 @@ impl Notation<Vec<Object>> for ObjectsNotation {
             return None;
         };
         if array.elements.is_empty() {
-            let hint = "for instance { \"shape\": { \"sphere\": { \"radius\": 1 } } }";
-            reader.error(span(value), "the scene has no objects", Some(hint.into()));
+            let hint = format!("for instance {{ \"shape\": {} }}", shapes::SPHERE.about.example);
+            reader.error(span(value), "the scene has no objects", Some(hint));
         }
         let mut names = HashSet::new();
-        for written in array
-            .elements
-            .iter()
-            .filter_map(|element| element.as_object())
-        {
+        for written in array.elements.iter().filter_map(|element| element.as_object()) {
             let Some(name) = written.get_string("name") else {
                 continue;
             };

@@ -34,8 +34,8 @@ pub const VERSION: u32 = 1;
 
 /// Reads a scene file.
 ///
-/// All mistakes are reported at once, each once, with its place. Text that is no JSON is understood as far as there is no
-/// doubt what is meant: see [`MOST_NESTED`] for the one limit.
+/// Files are JSON, and may hold comments (`//` and `/* */`). All mistakes are reported at once, each once, with its place;
+/// only text whose structure can't be made out (an unclosed bracket, nesting deeper than [`MOST_NESTED`]) ends the search.
 ///
 /// ```
 /// let text = r#"{ "objects": [ { "shape": { "sphere": { "radios": 1 } } } ] }"#;
@@ -107,9 +107,7 @@ fn analyse_roots(reader: &mut Reader) {
             let Some(node) = reader.nodes.get(index as usize) else {
                 continue;
             };
-            let param = fault
-                .param
-                .and_then(|param| node.params.get(param)?.clone());
+            let param = fault.param.and_then(|param| node.params.get(param)?.clone());
             let place = param.unwrap_or_else(|| node.name.clone());
             reader.report(fault.severity, place, fault.message, fault.hint);
         }

@@ -61,12 +61,7 @@ impl Reader {
         });
     }
 
-    pub(crate) fn error(
-        &mut self,
-        span: Range<usize>,
-        message: impl Into<String>,
-        hint: Option<String>,
-    ) {
+    pub(crate) fn error(&mut self, span: Range<usize>, message: impl Into<String>, hint: Option<String>) {
         self.report(Severity::Error, span, message, hint);
     }
 
@@ -104,12 +99,7 @@ impl Reader {
     }
 
     /// Reports what `fault` says of a value, if anything, and hands the value on otherwise.
-    pub(crate) fn sound<T>(
-        &mut self,
-        value: &Written<'_>,
-        result: T,
-        fault: Option<String>,
-    ) -> Option<T> {
+    pub(crate) fn sound<T>(&mut self, value: &Written<'_>, result: T, fault: Option<String>) -> Option<T> {
         let Some(fault) = fault else {
             return Some(result);
         };
@@ -132,22 +122,14 @@ impl Reader {
             .filter(|_| !literal.value.contains(['N', 'I']))?;
         if number.is_infinite() {
             let message = format!("{} is too large: {}", self.label(), quote(literal.value));
-            self.error(
-                span(value),
-                message,
-                Some(format!("numbers go up to {:e}", f64::MAX)),
-            );
+            self.error(span(value), message, Some(format!("numbers go up to {:e}", f64::MAX)));
             return None;
         }
         Some(number)
     }
 
     /// Exactly `N` finite numbers.
-    pub(crate) fn numbers<const N: usize>(
-        &mut self,
-        value: &Written<'_>,
-        names: [&str; N],
-    ) -> Option<[f64; N]> {
+    pub(crate) fn numbers<const N: usize>(&mut self, value: &Written<'_>, names: [&str; N]) -> Option<[f64; N]> {
         let wanted = || format!("a list of {N} numbers, [{}]", names.join(", "));
         let Written::Array(array) = value else {
             self.mistyped(value, &wanted(), None);
@@ -173,11 +155,7 @@ impl Reader {
     }
 
     /// The entries of an object by the places of their keys in `keys`; unknown and repeated ones are reported.
-    pub(crate) fn entries<'v>(
-        &mut self,
-        value: &'v Written<'v>,
-        keys: &'v [&'static str],
-    ) -> Option<Entries<'v>> {
+    pub(crate) fn entries<'v>(&mut self, value: &'v Written<'v>, keys: &'v [&'static str]) -> Option<Entries<'v>> {
         let Written::Object(object) = value else {
             self.mistyped(
                 value,
@@ -237,10 +215,7 @@ impl Reader {
             self.mistyped(
                 value,
                 "an object",
-                Some(format!(
-                    "{what} is one of {}",
-                    listed(names.iter().copied())
-                )),
+                Some(format!("{what} is one of {}", listed(names.iter().copied()))),
             );
             return None;
         };
@@ -300,12 +275,7 @@ impl<'v> Entries<'v> {
     }
 
     /// The value of a key; if it was not written, that is reported.
-    pub(crate) fn require(
-        &self,
-        reader: &mut Reader,
-        key: &'static str,
-        about: &str,
-    ) -> Option<&'v Written<'v>> {
+    pub(crate) fn require(&self, reader: &mut Reader, key: &'static str, about: &str) -> Option<&'v Written<'v>> {
         let value = self.get(key);
         if value.is_none() && !self.guesses.contains(&key) {
             reader.error(
@@ -326,12 +296,7 @@ impl<'v> Entries<'v> {
     }
 
     /// What a key says in a notation, or `None` if it was not written or is faulty.
-    pub(crate) fn read<T>(
-        &self,
-        reader: &mut Reader,
-        key: &'static str,
-        notation: &dyn Notation<T>,
-    ) -> Option<T> {
+    pub(crate) fn read<T>(&self, reader: &mut Reader, key: &'static str, notation: &dyn Notation<T>) -> Option<T> {
         let value = self.get(key)?;
         reader.labelled(quote(key), |reader| notation.read(reader, value))
     }

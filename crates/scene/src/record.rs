@@ -45,6 +45,19 @@ pub(crate) struct Fault {
     pub(crate) hint: Option<String>,
 }
 
+impl Fault {
+    /// What a notation says of the value of a key.
+    pub(crate) fn of<T>(key: &'static str, notation: &dyn Notation<T>, value: &T) -> Option<Self> {
+        let message = format!("`{key}` {}", notation.fault(value)?);
+        Some(Self {
+            severity: Severity::Error,
+            key,
+            message,
+            hint: None,
+        })
+    }
+}
+
 /// The notation of a record.
 #[derive(Debug)]
 pub(crate) struct RecordNotation;
@@ -150,13 +163,9 @@ macro_rules! record {
             fn faults(&self) -> Vec<$crate::record::Fault> {
                 let mut faults = Vec::new();
                 $(
-                    let fault = $crate::notation::Notation::<$Type>::fault(&$notation, &self.$field);
-                    faults.extend(fault.map(|fault| $crate::record::Fault {
-                        severity: $crate::Severity::Error,
-                        key: $crate::record::key!($field $($as)?),
-                        message: format!("`{}` {fault}", $crate::record::key!($field $($as)?)),
-                        hint: None,
-                    }));
+                    let key = $crate::record::key!($field $($as)?);
+                    faults.extend($crate::record::Fault::of(key, &$notation, &self.$field));
+                    $( faults.extend($crate::record::Fault::of($or_key, &$or_notation, &self.$field)); )*
                 )+
                 if faults.is_empty() { $crate::record::Record::joint_faults(self) } else { faults }
             }
@@ -218,3 +227,80 @@ macro_rules! require {
 }
 
 pub(crate) use {key, record, require};
+
+#[cfg(test)]
+mod tests {
+    use super::{Reader, Record};
+    use crate::syntax::parse;
+    use crate::*;
+    use std::fmt::Debug;
+
+    /// A record survives being written and read.
+    fn survives<R: Record + PartialEq + Debug>(record: &R) {
+        let text = record.write().to_string();
+        let mut reader = Reader::new();
+        let value = parse(&text, &mut reader.diagnostics).expect("JSON");
+        let read = R::read(&mut reader, &value);
+        assert!(reader.diagnostics.is_empty(), "{:?}\n{text}", reader.diagnostics);
+        assert_eq!(read.as_ref(), Some(record), "{text}");
+    }
+
+    #[test]
+    fn records_survive_their_notation() {
+        survives(&Camera::default());
+        survives(&Camera::look([1, 2, 3], [0.1, 0.2, 0.3]).fov(33.3));
+        survives(&Camera::look([1, 2, 3], [4, 5, 6]).horizontal_fov(60).up([0, 1, 0]));
+        survives(&Camera::look([1, 2, 3], [4, 5, 6]).orthographic(2.5));
+        survives(&Sun::default());
+        survives(
+            &Sun::towards([0.1, 0.2, 0.3])
+                .intensity(0.7)
+                .shadow(Shadow::Hardness(16.0)),
+        );
+        survives(&Sun::default().shadow(Shadow::Clearance {
+            angle: Some(0.5_f64.to_radians()),
+        }));
+        survives(&Point::default());
+        survives(&Point::at([1, 2, 3]).falloff(Falloff::None).shadow(Shadow::None));
+        survives(&Point::at([1, 2, 3]).falloff(Falloff::Polynomial([1.0, 0.1, 0.01])));
+        survives(&Spot::default());
+        survives(
+            &Spot::at([1, 2, 3], [0, 0, 0])
+                .angle(25)
+                .shadow(Shadow::Clearance { angle: None }),
+        );
+        survives(&Material::default());
+        survives(&Material::color("#c8825a").emissive([0.1, 0.2, 3.0]).model(Model::Phong));
+        survives(&Material::checker("#fff", "#123", 0.3).exponent(1e9));
+        survives(&Ambient::default());
+        survives(&Occlusion::default());
+        survives(&Occlusion {
+            strength: 0.3,
+            reach: Some(0.1),
+        });
+        survives(&Tracing::default().precision(1e-6).max_steps(1));
+        survives(&Picture::default().exposure(-1.5).width(65_536));
+        survives(&Picture {
+            overbright: Overbright::ScaleDown,
+            ..Picture::default()
+        });
+    }
+
+    #[test]
+    fn defaults_have_no_faults() {
+        let lights = Light::rig().iter().map(|light| light.faults().len()).sum::<usize>();
+        let others = [
+            Camera::default().faults(),
+            Sun::default().faults(),
+            Point::default().faults(),
+            Spot::default().faults(),
+            Material::default().faults(),
+            Ambient::default().faults(),
+            Occlusion::default().faults(),
+            Tracing::default().faults(),
+            Picture::default().faults(),
+            Scene::default().faults(),
+        ];
+        assert_eq!(lights + others.iter().map(Vec::len).sum::<usize>(), 0);
+    }
+}

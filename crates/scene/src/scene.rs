@@ -8,9 +8,7 @@ use crate::object::{MaterialsNotation, Object, ObjectsNotation};
 use crate::read::VersionNotation;
 use crate::record::{RecordNotation, record};
 use crate::settings::{Picture, Tracing};
-use crate::surroundings::{
-    Ambient, AmbientNotation, Background, BackgroundNotation, Occlusion, OcclusionNotation,
-};
+use crate::surroundings::{Ambient, AmbientNotation, Background, BackgroundNotation, Occlusion, OcclusionNotation};
 use freikugel_field::{Field, MaterialId};
 use std::panic::Location;
 
@@ -59,11 +57,7 @@ pub struct Origins {
 }
 
 /// Notes the origin of the part that comes next after `count` others, some of which may have been added without origin.
-fn note(
-    origins: &mut Vec<Option<&'static Location<'static>>>,
-    count: usize,
-    location: &'static Location<'static>,
-) {
+fn note(origins: &mut Vec<Option<&'static Location<'static>>>, count: usize, location: &'static Location<'static>) {
     origins.resize(count, None);
     origins.push(Some(location));
 }
@@ -94,11 +88,7 @@ impl Scene {
     /// Adds a material, and gives the handle to paint shapes with.
     #[track_caller]
     pub fn material(&mut self, name: impl Into<String>, material: Material) -> MaterialId {
-        note(
-            &mut self.origins.materials,
-            self.materials.len(),
-            Location::caller(),
-        );
+        note(&mut self.origins.materials, self.materials.len(), Location::caller());
         self.materials.push((name.into(), material));
         MaterialId(u32::try_from(self.materials.len() - 1).unwrap_or(u32::MAX))
     }
@@ -106,11 +96,7 @@ impl Scene {
     /// Adds an object.
     #[track_caller]
     pub fn add(&mut self, name: impl Into<String>, shape: impl Into<Field>) -> &mut Self {
-        note(
-            &mut self.origins.objects,
-            self.objects.len(),
-            Location::caller(),
-        );
+        note(&mut self.origins.objects, self.objects.len(), Location::caller());
         self.objects.push(Object {
             name: name.into(),
             material: None,
@@ -125,11 +111,7 @@ impl Scene {
         if self.origins.lights.is_empty() && self.lights == Light::rig() {
             self.lights.clear();
         }
-        note(
-            &mut self.origins.lights,
-            self.lights.len(),
-            Location::caller(),
-        );
+        note(&mut self.origins.lights, self.lights.len(), Location::caller());
         self.lights.push(light.into());
         self
     }

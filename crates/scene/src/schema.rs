@@ -8,7 +8,7 @@ use serde_json::{Map, Value as Json, json};
 /// The JSON Schema (draft 2020-12) of scene files.
 ///
 /// It says what can be said of a value by itself. What a scene needs beyond that (known materials, distinct names, ...)
-/// only [`crate::read`] tells.
+/// only [`read`](fn@crate::read) tells.
 pub fn schema() -> Json {
     let mut definitions = Definitions::default();
     let root = definitions.record::<Scene>();
@@ -63,9 +63,11 @@ impl ObjectSchema {
         self.about = about.trim_ascii();
     }
 
-    /// Adds a key; one without default is required.
+    /// Adds a key. If the schema of its value says what it is, that goes before `about`.
     pub(crate) fn key(&mut self, key: &'static str, about: &str, mut schema: Json, need: Need) {
-        schema["description"] = about.trim_ascii().into();
+        if schema.get("description").is_none() {
+            schema["description"] = about.trim_ascii().into();
+        }
         match need {
             Need::Required => self.required.push(key),
             Need::Optional(Some(default)) => schema["default"] = default,
@@ -75,12 +77,10 @@ impl ObjectSchema {
     }
 
     pub(crate) fn finish(self) -> Json {
-        let mut schema = json!({
-            "type": "object",
-            "description": self.about,
-            "properties": self.properties,
-            "additionalProperties": false,
-        });
+        let mut schema = json!({ "type": "object", "properties": self.properties, "additionalProperties": false });
+        if !self.about.is_empty() {
+            schema["description"] = self.about.into();
+        }
         if !self.required.is_empty() {
             schema["required"] = self.required.into();
         }
@@ -112,24 +112,14 @@ impl RecordSchema<'_> {
     }
 
     /// Adds a key with its notation and its default, if it need not be there.
-    pub(crate) fn key<T>(
-        &mut self,
-        key: &'static str,
-        about: &str,
-        notation: &dyn Notation<T>,
-        default: Option<&T>,
-    ) {
-        let need = default.map_or(Need::Required, |default| {
-            Need::Optional(notation.write(default))
-        });
+    pub(crate) fn key<T>(&mut self, key: &'static str, about: &str, notation: &dyn Notation<T>, default: Option<&T>) {
+        let need = default.map_or(Need::Required, |default| Need::Optional(notation.write(default)));
         let schema = notation.schema(self.definitions);
         self.object.key(key, about, schema, need);
     }
 
     /// At most one of two keys may be there.
     pub(crate) fn exclude(&mut self, one: &'static str, other: &'static str) {
-        self.object
-            .exclusions
-            .push(json!({ "required": [one, other] }));
+        self.object.exclusions.push(json!({ "required": [one, other] }));
     }
 }

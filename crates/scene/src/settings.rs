@@ -34,7 +34,7 @@ record! {
         /// By how many stops the picture is brightened: each doubles the light.
         pub exposure: f32 = 0.0, optional EXPOSURE, setter exposure;
         /// What becomes of colours brighter than the picture can hold.
-        pub overbright: Overbright = Overbright::Clamp, optional ChoiceNotation;
+        pub overbright: Overbright = Overbright::Clamp, optional ChoiceNotation, setter overbright;
     }
 }
 

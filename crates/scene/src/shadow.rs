@@ -1,6 +1,5 @@
 //! Shadows: which of the ways to find them a light uses.
 
-use crate::Argument;
 use crate::notation::{Flag, Notation, Number, tidy_f32};
 use crate::reader::{Reader, span};
 use crate::schema::Definitions;
@@ -25,12 +24,6 @@ pub enum Shadow {
         /// The apparent diameter of a sun.
         angle: Option<f64>,
     },
-}
-
-impl Argument<Shadow> for Shadow {
-    fn value(self) -> Shadow {
-        self
-    }
 }
 
 /// The notation of shadows, which differs for suns and lamps.
@@ -71,11 +64,7 @@ impl ShadowNotation {
 impl Notation<Shadow> for ShadowNotation {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Shadow> {
         match value {
-            Written::BooleanLit(literal) => Some(if literal.value {
-                Shadow::Hard
-            } else {
-                Shadow::None
-            }),
+            Written::BooleanLit(literal) => Some(if literal.value { Shadow::Hard } else { Shadow::None }),
             Written::Object(_) => {
                 let (index, value) = reader.variant(value, "a shadow", &FORMS)?;
                 reader.labelled(quote(FORMS[index]), |reader| match index {
@@ -97,9 +86,7 @@ impl Notation<Shadow> for ShadowNotation {
             | (Shadow::None | Shadow::Hard, true) => None,
             (Shadow::Hardness(hardness), _) => HARDNESS.fault(hardness),
             (Shadow::Clearance { angle: Some(angle) }, true) => ANGLE.fault(angle),
-            (Shadow::Clearance { angle: None }, true) => {
-                Some("must have an angle: that of the sun".into())
-            }
+            (Shadow::Clearance { angle: None }, true) => Some("must have an angle: that of the sun".into()),
             (Shadow::Clearance { angle: Some(_) }, false) => {
                 Some("must have no angle: a lamp's size is the free space around it".into())
             }

@@ -4,15 +4,15 @@
 //! on stand under `shape` or `shapes`. A function of many shapes that needs no parameters may have the list for a value.
 //! Which functions there are, nothing here knows but [`freikugel_field::shapes::ALL`].
 
-use crate::notation::{
-    Notation, direction_schema, index_of, named_direction, numbers_schema, tidy,
-};
+mod param;
+
+use crate::notation::Notation;
 use crate::object::MaterialNotation;
 use crate::reader::{Entries, NodePlace, Reader, name_span, span};
 use crate::schema::{Definitions, Need, ObjectSchema};
 use crate::suggest::{closest, quote};
 use crate::syntax::Written;
-use freikugel_field::{Arity, Field, Kind, Origin, Param, ParamKind, Shape, Value, shapes};
+use freikugel_field::{Arity, Field, Kind, MaterialId, Origin, Shape, Value, shapes};
 use jsonc_parser::ast::ObjectProp;
 use serde_json::{Value as Json, json};
 
@@ -29,10 +29,7 @@ const CHILDREN: &str = "shapes";
 const MATERIAL: &str = "material";
 
 fn by_name(name: &str) -> Option<&'static Shape> {
-    shapes::ALL
-        .iter()
-        .copied()
-        .find(|shape| shape.about.name == name)
+    shapes::ALL.iter().copied().find(|shape| shape.about.name == name)
 }
 
 impl Notation<Field> for ShapeNotation {
@@ -67,7 +64,7 @@ impl Notation<Field> for ShapeNotation {
 /// A shape and all within it. If it can't be read, the sound parts of it become roots of their own.
 fn node(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
     let Written::Object(object) = value else {
-        reader.mistyped(value, "a shape", Some(form()));
+        reader.mistyped(value, "a shape", Some(for_instance(&shapes::SPHERE)));
         return None;
     };
     let mut found: Option<(&'static Shape, &ObjectProp<'_>)> = None;
@@ -78,11 +75,7 @@ fn node(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
         match (by_name(key), found) {
             (Some(shape), None) => found = Some((shape, prop)),
             (Some(_), Some((first, _))) => {
-                let message = format!(
-                    "{} stands in the same object as `{}`",
-                    quote(key),
-                    first.about.name
-                );
+                let message = format!("{} stands in the same object as `{}`", quote(key), first.about.name);
                 reader.error(
                     name_span(prop),
                     message,
@@ -97,7 +90,11 @@ fn node(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
         stranger(reader, prop, found.map(|(shape, _)| shape));
     }
     if object.properties.is_empty() {
-        reader.error(span(value), "a shape is missing here", Some(form()));
+        reader.error(
+            span(value),
+            "a shape is missing here",
+            Some(for_instance(&shapes::SPHERE)),
+        );
     }
     let (shape, prop) = found?;
     let index = reader.nodes.len();
@@ -124,63 +121,34 @@ fn stranger(reader: &mut Reader, prop: &ObjectProp<'_>, beside: Option<&Shape>) 
         return reader.error(place, message, Some(hint.into()));
     }
     let known = shapes::ALL.iter().map(|shape| shape.about.name);
-    let elsewhere = shapes::ALL
-        .iter()
-        .find(|shape| shape.about.elsewhere.contains(&key));
+    let elsewhere = shapes::ALL.iter().find(|shape| shape.about.elsewhere.contains(&key));
     let hint = match (elsewhere, closest(key, known.clone())) {
         (Some(shape), _) => format!("here it is called `{}`", shape.about.name),
         (None, Some(guess)) => format!("did you mean `{guess}`?"),
         (None, None) => {
-            let more = if known.len() > MOST_LISTED {
-                ", ..."
-            } else {
-                ""
-            };
+            let more = if known.len() > MOST_LISTED { ", ..." } else { "" };
             format!(
                 "there are {}{more}",
                 known.take(MOST_LISTED).collect::<Vec<_>>().join(", ")
             )
         }
     };
-    reader.error(
-        place,
-        format!("there is no shape {}", quote(key)),
-        Some(hint),
-    );
+    reader.error(place, format!("there is no shape {}", quote(key)), Some(hint));
 }
 
 /// As many names of shapes as a hint can hold and still be read.
 const MOST_LISTED: usize = 40;
 
-/// What a shape looks like.
-fn form() -> String {
-    shapes::ALL
-        .iter()
-        .find(|shape| shape.arity() == Arity::None)
-        .map(|shape| for_instance(shape))
-        .unwrap_or_default()
-}
-
 /// The example of a shape in a hint, on one line.
-fn for_instance(shape: &Shape) -> String {
+pub(crate) fn for_instance(shape: &Shape) -> String {
     format!(
         "for instance {}",
-        shape
-            .about
-            .example
-            .split_whitespace()
-            .collect::<Vec<_>>()
-            .join(" ")
+        shape.about.example.split_whitespace().collect::<Vec<_>>().join(" ")
     )
 }
 
 /// A call of `shape` with the parameters and shapes in `value`.
-fn call(
-    reader: &mut Reader,
-    shape: &'static Shape,
-    index: usize,
-    value: &Written<'_>,
-) -> Option<Field> {
+fn call(reader: &mut Reader, shape: &'static Shape, index: usize, value: &Written<'_>) -> Option<Field> {
     let about = &shape.about;
     let arity = shape.arity();
     let is_paint = matches!(shape.kind, Kind::Paint);
@@ -191,18 +159,10 @@ fn call(
 
     if let (Arity::Many, Written::Array(_)) = (arity, value) {
         let children = list(reader, value);
-        let missing: Vec<_> = about
-            .params
-            .iter()
-            .filter(|param| param.default.is_none())
-            .collect();
+        let missing: Vec<_> = about.params.iter().filter(|param| param.default.is_none()).collect();
         for param in &missing {
             let message = format!("{what} needs `{}`", param.name);
-            reader.error(
-                reader.nodes[index].name.clone(),
-                message,
-                Some(for_instance(shape)),
-            );
+            reader.error(reader.nodes[index].name.clone(), message, Some(for_instance(shape)));
         }
         let args = missing.is_empty().then(Vec::new);
         return finish(reader, shape, index, args, Some(None), children);
@@ -218,39 +178,21 @@ fn call(
     }
     let entries = reader.entries(value, &keys)?;
     let args = arguments(reader, shape, index, &entries);
-    let material = match is_paint {
-        true => entries
-            .require(reader, MATERIAL, "the name of a material")
-            .and_then(|value| {
-                reader
-                    .labelled(quote(MATERIAL), |reader| {
-                        MaterialNotation.read(reader, value)
-                    })
-                    .map(Some)
-            }),
-        false => Some(None),
+    let material = if is_paint {
+        entries.require(reader, MATERIAL, "the name of a material");
+        entries.read(reader, MATERIAL, &MaterialNotation).map(Some)
+    } else {
+        Some(None)
     };
     let children = match arity {
-        Arity::None => Children::default(),
-        Arity::One => match entries.require(reader, CHILD, "the shape it works on") {
-            Some(value) => {
-                let child = reader.labelled(quote(CHILD), |reader| node(reader, value));
-                Children {
-                    is_sound: child.is_some(),
-                    fields: child.into_iter().collect(),
-                }
-            }
-            None => Children {
-                is_sound: false,
-                fields: Vec::new(),
-            },
-        },
+        Arity::None => Vec::new(),
+        Arity::One => {
+            let child = entries.require(reader, CHILD, "the shape it works on");
+            vec![child.and_then(|child| reader.labelled(quote(CHILD), |reader| node(reader, child)))]
+        }
         Arity::Many => match entries.require(reader, CHILDREN, "the shapes it works on") {
             Some(value) => reader.labelled(quote(CHILDREN), |reader| list(reader, value)),
-            None => Children {
-                is_sound: false,
-                fields: Vec::new(),
-            },
+            None => vec![None],
         },
     };
     finish(reader, shape, index, args, material, children)
@@ -264,39 +206,18 @@ fn child_key(arity: Arity) -> Option<&'static str> {
     }
 }
 
-/// The shapes that a function works on, as far as they could be read.
-struct Children {
-    fields: Vec<Field>,
-    is_sound: bool,
-}
-
-impl Default for Children {
-    fn default() -> Self {
-        Self {
-            fields: Vec::new(),
-            is_sound: true,
-        }
-    }
-}
-
-fn list(reader: &mut Reader, value: &Written<'_>) -> Children {
+/// The shapes of a list, `None` for those that can't be read.
+fn list(reader: &mut Reader, value: &Written<'_>) -> Vec<Option<Field>> {
     let Written::Array(array) = value else {
         reader.mistyped(value, "a list of shapes", None);
-        return Children {
-            is_sound: false,
-            fields: Vec::new(),
-        };
+        return vec![None];
     };
-    let mut children = Children::default();
     let outer = reader.label().to_string();
-    for (index, element) in array.elements.iter().enumerate() {
-        let child = reader.labelled(format!("entry {} of {outer}", index + 1), |reader| {
-            node(reader, element)
-        });
-        children.is_sound &= child.is_some();
-        children.fields.extend(child);
-    }
-    children
+    let labels = (1..).map(|number| format!("entry {number} of {outer}"));
+    let elements = array.elements.iter().zip(labels);
+    elements
+        .map(|(element, label)| reader.labelled(label, |reader| node(reader, element)))
+        .collect()
 }
 
 /// The node, if all of it could be read; otherwise its sound children become roots.
@@ -305,31 +226,22 @@ fn finish(
     shape: &'static Shape,
     index: usize,
     args: Option<Vec<f64>>,
-    material: Option<Option<freikugel_field::MaterialId>>,
-    children: Children,
+    material: Option<Option<MaterialId>>,
+    children: Vec<Option<Field>>,
 ) -> Option<Field> {
-    let (Some(args), Some(material), true) = (args, material, children.is_sound) else {
-        reader.roots.extend(children.fields);
+    let is_whole = children.iter().all(Option::is_some);
+    let children = children.into_iter().flatten();
+    let (Some(args), Some(material), true) = (args, material, is_whole) else {
+        reader.roots.extend(children);
         return None;
     };
     let args = args.into_iter().map(Value::Literal);
     let origin = Origin::Document(u32::try_from(index).unwrap_or(u32::MAX));
-    Some(Field::with_origin(
-        shape,
-        args,
-        children.fields,
-        material,
-        origin,
-    ))
+    Some(Field::with_origin(shape, args, children, material, origin))
 }
 
 /// The numbers of all parameters, defaults included, or `None` after reporting what is wrong with them.
-fn arguments(
-    reader: &mut Reader,
-    shape: &Shape,
-    index: usize,
-    entries: &Entries<'_>,
-) -> Option<Vec<f64>> {
+fn arguments(reader: &mut Reader, shape: &Shape, index: usize, entries: &Entries<'_>) -> Option<Vec<f64>> {
     let mut args = Vec::new();
     let mut is_sound = true;
     for (place, param) in shape.about.params.iter().enumerate() {
@@ -340,9 +252,7 @@ fn arguments(
         let numbers = match written {
             Some(value) => {
                 reader.nodes[index].params[place] = Some(span(value));
-                reader.labelled(quote(param.name), |reader| {
-                    argument(reader, param.kind, value)
-                })
+                reader.labelled(quote(param.name), |reader| param.kind.read(reader, value))
             }
             None => param.default.map(<[f64]>::to_vec),
         };
@@ -352,95 +262,6 @@ fn arguments(
     is_sound.then_some(args)
 }
 
-/// The numbers of one parameter.
-fn argument(reader: &mut Reader, kind: ParamKind, value: &Written<'_>) -> Option<Vec<f64>> {
-    let numbers = match kind {
-        ParamKind::Number | ParamKind::Length | ParamKind::Positive | ParamKind::Factor => {
-            vec![reader.number(value)?]
-        }
-        ParamKind::Angle => vec![reader.number(value)?.to_radians()],
-        ParamKind::Choice(names) => vec![choice(reader, names, value)? as f64],
-        ParamKind::Flag => {
-            let Written::BooleanLit(literal) = value else {
-                reader.mistyped(value, "`true` or `false`", None);
-                return None;
-            };
-            vec![f64::from(u8::from(literal.value))]
-        }
-        ParamKind::Direction if matches!(value, Written::StringLit(_)) => {
-            let name = value
-                .as_string_lit()
-                .map(|name| name.value.as_ref())
-                .unwrap_or_default();
-            named_direction(reader, value, name)?.to_array().to_vec()
-        }
-        ParamKind::Size if matches!(value, Written::NumberLit(_)) => vec![reader.number(value)?; 3],
-        ParamKind::Size if !matches!(value, Written::Array(_)) => {
-            reader.mistyped(value, "a number or a list of 3 numbers, [x, y, z]", None);
-            return None;
-        }
-        ParamKind::Vector | ParamKind::Direction | ParamKind::Size | ParamKind::Factors => {
-            reader.numbers(value, ["x", "y", "z"])?.to_vec()
-        }
-        ParamKind::Angles => reader
-            .numbers(value, ["x", "y", "z"])?
-            .map(f64::to_radians)
-            .to_vec(),
-        ParamKind::Quaternion => reader.numbers(value, ["x", "y", "z", "w"])?.to_vec(),
-        ParamKind::HalfSpaces => half_spaces(reader, value)?,
-    };
-    reader
-        .sound(value, (), kind.fault(&numbers))
-        .map(|()| numbers)
-}
-
-fn choice(
-    reader: &mut Reader,
-    names: &'static [&'static str],
-    value: &Written<'_>,
-) -> Option<usize> {
-    match value {
-        Written::StringLit(name) => index_of(reader, value, &name.value, names.iter().copied()),
-        Written::NumberLit(literal) if are_numbers(names) => {
-            let number = reader.number(value)?;
-            let index = names.iter().position(|name| name.parse() == Ok(number));
-            index.or_else(|| index_of(reader, value, literal.value, names.iter().copied()))
-        }
-        _ => {
-            reader.mistyped(
-                value,
-                &format!("one of {}", crate::suggest::listed(names.iter().copied())),
-                None,
-            );
-            None
-        }
-    }
-}
-
-/// Whether all names of a choice are numbers, which may then stand without quotes.
-fn are_numbers(names: &[&str]) -> bool {
-    names.iter().all(|name| name.parse::<f64>().is_ok())
-}
-
-fn half_spaces(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
-    let Written::Array(array) = value else {
-        reader.mistyped(value, "a list of half-spaces, [x, y, z, d] each", None);
-        return None;
-    };
-    let mut numbers = Vec::new();
-    let mut is_sound = true;
-    let outer = reader.label().to_string();
-    for (index, element) in array.elements.iter().enumerate() {
-        let label = format!("entry {} of {outer}", index + 1);
-        let plane = reader.labelled(label, |reader| {
-            reader.numbers(element, ["x", "y", "z", "d"])
-        });
-        is_sound &= plane.is_some();
-        numbers.extend(plane.into_iter().flatten());
-    }
-    is_sound.then_some(numbers)
-}
-
 /// The schema of a call of `shape`.
 fn function_schema(shape: &'static Shape, definitions: &mut Definitions) -> Json {
     let about = &shape.about;
@@ -448,9 +269,9 @@ fn function_schema(shape: &'static Shape, definitions: &mut Definitions) -> Json
     for param in about.params {
         let need = match param.default {
             None => Need::Required,
-            Some(default) => Need::Optional(param_json(param, default)),
+            Some(default) => Need::Optional(param.kind.write(&default.to_vec())),
         };
-        object.key(param.name, param.about, param_schema(param.kind), need);
+        object.key(param.name, param.about, param.kind.schema(definitions), need);
     }
     if matches!(shape.kind, Kind::Paint) {
         let name = MaterialNotation.schema(definitions);
@@ -462,12 +283,7 @@ fn function_schema(shape: &'static Shape, definitions: &mut Definitions) -> Json
     match shape.arity() {
         Arity::None => {}
         Arity::One => object.key(CHILD, "The shape it works on.", child(), Need::Required),
-        Arity::Many => object.key(
-            CHILDREN,
-            "The shapes it works on.",
-            several(),
-            Need::Required,
-        ),
+        Arity::Many => object.key(CHILDREN, "The shapes it works on.", several(), Need::Required),
     }
     let is_plain = about.params.iter().all(|param| param.default.is_some());
     let mut schema = match shape.arity() {
@@ -476,70 +292,4 @@ fn function_schema(shape: &'static Shape, definitions: &mut Definitions) -> Json
     };
     schema["description"] = about.summary.into();
     schema
-}
-
-/// The default of a parameter as it would be written.
-fn param_json(param: &Param, numbers: &[f64]) -> Option<Json> {
-    let list = |numbers: &[f64]| {
-        Json::from(
-            numbers
-                .iter()
-                .map(|&number| tidy(number))
-                .collect::<Vec<_>>(),
-        )
-    };
-    Some(match param.kind {
-        ParamKind::Number | ParamKind::Length | ParamKind::Positive | ParamKind::Factor => {
-            tidy(*numbers.first()?)
-        }
-        ParamKind::Angle => tidy(numbers.first()?.to_degrees()),
-        ParamKind::Angles => list(
-            &numbers
-                .iter()
-                .map(|angle| angle.to_degrees())
-                .collect::<Vec<_>>(),
-        ),
-        ParamKind::Choice(names) => json!(names.get(*numbers.first()? as usize)?),
-        ParamKind::Flag => json!(*numbers.first()? != 0.0),
-        ParamKind::HalfSpaces => numbers.chunks(4).map(list).collect(),
-        ParamKind::Vector
-        | ParamKind::Direction
-        | ParamKind::Size
-        | ParamKind::Factors
-        | ParamKind::Quaternion => list(numbers),
-    })
-}
-
-fn param_schema(kind: ParamKind) -> Json {
-    match kind {
-        ParamKind::Number | ParamKind::Angle => json!({ "type": "number" }),
-        ParamKind::Length => json!({ "type": "number", "minimum": 0 }),
-        ParamKind::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
-        ParamKind::Factor => json!({ "type": "number", "not": { "const": 0 } }),
-        ParamKind::Choice(names) => {
-            let numbers = names
-                .iter()
-                .filter_map(|name| name.parse::<f64>().ok())
-                .map(tidy);
-            let numbers: Vec<Json> = if are_numbers(names) {
-                numbers.collect()
-            } else {
-                Vec::new()
-            };
-            json!({ "enum": names.iter().map(|name| json!(name)).chain(numbers).collect::<Vec<_>>() })
-        }
-        ParamKind::Flag => json!({ "type": "boolean" }),
-        ParamKind::Vector | ParamKind::Angles => numbers_schema(3),
-        ParamKind::Direction => direction_schema(),
-        ParamKind::Size => {
-            let length = json!({ "type": "number", "exclusiveMinimum": 0 });
-            json!({ "anyOf": [length, { "type": "array", "items": length, "minItems": 3, "maxItems": 3 }] })
-        }
-        ParamKind::Factors => {
-            let factor = json!({ "type": "number", "not": { "const": 0 } });
-            json!({ "type": "array", "items": factor, "minItems": 3, "maxItems": 3 })
-        }
-        ParamKind::Quaternion => numbers_schema(4),
-        ParamKind::HalfSpaces => json!({ "type": "array", "items": numbers_schema(4) }),
-    }
 }

@@ -128,8 +128,7 @@ impl Notation<Background> for BackgroundNotation {
         }
         let (_, value) = reader.variant(value, "a background", &[Gradient::NAME])?;
         let label = quote(Gradient::NAME);
-        let Gradient { top, bottom } =
-            reader.labelled(label, |reader| Gradient::read(reader, value))?;
+        let Gradient { top, bottom } = reader.labelled(label, |reader| Gradient::read(reader, value))?;
         Some(Background::Gradient { top, bottom })
     }
 
@@ -146,9 +145,7 @@ impl Notation<Background> for BackgroundNotation {
     fn write(&self, value: &Background) -> Option<Json> {
         match value {
             Background::Solid(color) => ColorNotation.write(color),
-            &Background::Gradient { top, bottom } => {
-                Some(json!({ Gradient::NAME: Gradient { top, bottom }.write() }))
-            }
+            &Background::Gradient { top, bottom } => Some(json!({ Gradient::NAME: Gradient { top, bottom }.write() })),
         }
     }
 

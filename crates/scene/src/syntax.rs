@@ -105,15 +105,10 @@ fn scan(text: &str) -> Result<(), Diagnostic> {
             b'}' | b']' => depth = depth.saturating_sub(1),
             b'"' => at = scan_string(bytes, start)?,
             b'/' if bytes.get(at) == Some(&b'/') => {
-                at += bytes[at..]
-                    .iter()
-                    .take_while(|b| !matches!(b, b'\n' | b'\r'))
-                    .count();
+                at += bytes[at..].iter().take_while(|b| !matches!(b, b'\n' | b'\r')).count();
             }
             b'/' if bytes.get(at) == Some(&b'*') => {
-                at = text[at + 1..]
-                    .find("*/")
-                    .map_or(text.len(), |end| at + 1 + end + 2);
+                at = text[at + 1..].find("*/").map_or(text.len(), |end| at + 1 + end + 2);
             }
             0x0b | 0x0c | 0x80.. => {
                 let c = text[start..].chars().next().unwrap_or_default();
@@ -146,11 +141,7 @@ fn scan_string(bytes: &[u8], start: usize) -> Result<usize, Diagnostic> {
             }
             Some(&byte @ ..0x20) => {
                 let message = format!("a text holds the control character U+{byte:04X}");
-                return Err(fault(
-                    message,
-                    &format!("write it as \\u{byte:04x}"),
-                    at..at + 1,
-                ));
+                return Err(fault(message, &format!("write it as \\u{byte:04x}"), at..at + 1));
             }
             Some(_) => at += 1,
         }
@@ -174,56 +165,34 @@ fn explain(text: &str, error: &ParseError) -> Diagnostic {
     let Range { start, end } = error.range().start..error.range().end;
     let (message, hint) = match error.kind() {
         Kind::CommentsNotAllowed => ("comments are not allowed here", ""),
-        Kind::ExpectedColonAfterObjectKey => {
-            ("there is no `:` after this key", "write \"key\": value")
-        }
+        Kind::ExpectedColonAfterObjectKey => ("there is no `:` after this key", "write \"key\": value"),
         Kind::ExpectedObjectValue => ("this key has no value", "write \"key\": value"),
         Kind::ExpectedDigit
         | Kind::ExpectedDigitFollowingNegativeSign
         | Kind::ExpectedPlusMinusOrDigitInNumberLiteral => ("this number lacks a digit", ""),
         Kind::ExpectedStringObjectProperty => ("this key is not in quotes", "write \"key\": value"),
-        Kind::ExpectedComma => (
-            "there is no comma here",
-            "put one between a value and what follows it",
-        ),
+        Kind::ExpectedComma => ("there is no comma here", "put one between a value and what follows it"),
         Kind::MultipleRootJsonValues => (
             "the scene ends before this",
             "remove the rest, or one bracket too many before it",
         ),
-        Kind::BareDecimalPointNumbersNotAllowed => (
-            "this number has no digit beside its point",
-            "write 0.5 or 5",
-        ),
-        Kind::HexadecimalNumbersNotAllowed => {
-            ("JSON has no hexadecimal numbers", "write it in decimals")
-        }
+        Kind::BareDecimalPointNumbersNotAllowed => ("this number has no digit beside its point", "write 0.5 or 5"),
+        Kind::HexadecimalNumbersNotAllowed => ("JSON has no hexadecimal numbers", "write it in decimals"),
         Kind::UnaryPlusNumbersNotAllowed => ("a number does not start with +", "leave it out"),
         Kind::NonFiniteNumbersNotAllowed => NOT_FINITE,
         Kind::SingleQuotedStringsNotAllowed => ("a text stands in double quotes", "write \" for '"),
         Kind::TrailingCommasNotAllowed => ("nothing follows this comma", "leave it out"),
-        Kind::String(ParseStringErrorKind::UnterminatedStringLiteral) => {
-            ("this text has no end", "close it with \"")
-        }
-        Kind::String(ParseStringErrorKind::ExpectedFourHexDigits) => {
-            ("\\u is followed by four hexadecimal digits", "")
-        }
-        Kind::String(ParseStringErrorKind::InvalidUnicodeEscapeSequence(_)) => {
-            ("no character has this number", "")
-        }
-        Kind::String(_) => (
-            "JSON has no such escape sequence",
-            "write \\\\ for a backslash",
-        ),
+        Kind::String(ParseStringErrorKind::UnterminatedStringLiteral) => ("this text has no end", "close it with \""),
+        Kind::String(ParseStringErrorKind::ExpectedFourHexDigits) => ("\\u is followed by four hexadecimal digits", ""),
+        Kind::String(ParseStringErrorKind::InvalidUnicodeEscapeSequence(_)) => ("no character has this number", ""),
+        Kind::String(_) => ("JSON has no such escape sequence", "write \\\\ for a backslash"),
         Kind::UnexpectedCloseBrace => ("a value is expected before this `}`", ""),
         Kind::UnexpectedCloseBracket => ("a value is expected before this `]`", ""),
         Kind::UnexpectedColon => ("a value is expected before this `:`", ""),
         Kind::UnexpectedComma => ("a value is expected before this comma", ""),
         Kind::UnexpectedWord if ["NaN", "Infinity"].contains(&&text[start..end]) => NOT_FINITE,
         Kind::UnexpectedWord => ("this is no JSON value", "texts stand in double quotes"),
-        Kind::UnexpectedTokenInObject => (
-            "a key is expected here, in double quotes",
-            "write \"key\": value",
-        ),
+        Kind::UnexpectedTokenInObject => ("a key is expected here, in double quotes", "write \"key\": value"),
         Kind::UnterminatedArray => ("this `[` is never closed", ""),
         Kind::UnterminatedObject => ("this `{` is never closed", ""),
         Kind::UnterminatedCommentBlock => ("this comment has no end", "close it with */"),

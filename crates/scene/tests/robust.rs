@@ -2,6 +2,7 @@
 
 use freikugel_scene::{MOST_NESTED, Scene, read, report};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use std::time::{Duration, Instant};
 
 const SCENE: &str = r##"{ "camera": { "eye": [4, -6, 3], "target": [0, 0, 1], "fov": 40 }, // the view
@@ -15,10 +16,7 @@ const SCENE: &str = r##"{ "camera": { "eye": [4, -6, 3], "target": [0, 0, 1], "f
 fn survives(text: &str) {
     let reading = read(text);
     for diagnostic in &reading.diagnostics {
-        assert!(
-            diagnostic.span.start <= diagnostic.span.end,
-            "{diagnostic:?}"
-        );
+        assert!(diagnostic.span.start <= diagnostic.span.end, "{diagnostic:?}");
         assert!(
             text.get(diagnostic.span.clone()).is_some(),
             "{diagnostic:?} lies outside of {text:?}"
@@ -51,10 +49,7 @@ fn large_texts_are_read_quickly() {
         ),
         (
             "duplicate materials",
-            format!(
-                "{{\"materials\": {{{}\"z\": 0}}}}",
-                "\"a\": {},".repeat(100_000)
-            ),
+            format!("{{\"materials\": {{{}\"z\": 0}}}}", "\"a\": {},".repeat(100_000)),
         ),
         ("lines", "\n".repeat(5_000_000)),
         ("comments", "/**/".repeat(1_000_000)),
@@ -74,9 +69,7 @@ fn large_texts_are_read_quickly() {
 fn nested(depth: usize) -> String {
     let (before, after) = (r#"{ "translate": { "by": [0, 0, 1], "shape": "#, " } }");
     let [before, after] = [before, after].map(|part| part.repeat(depth - 1));
-    format!(
-        r#"{{ "objects": [ {{ "shape": {before}{{ "sphere": {{ "radius": 1 }} }}{after} }} ] }}"#
-    )
+    format!(r#"{{ "objects": [ {{ "shape": {before}{{ "sphere": {{ "radius": 1 }} }}{after} }} ] }}"#)
 }
 
 #[test]
@@ -84,12 +77,10 @@ fn the_deepest_scene_is_read_on_a_small_thread() {
     // Three brackets stand around the outermost shape, and each shape has two.
     let deepest = (MOST_NESTED - 3) / 2;
     let read_in_thread = move |depth| {
-        let reading = std::thread::Builder::new()
-            .stack_size(1 << 20)
-            .spawn(move || {
-                let scene: Option<Scene> = read(&nested(depth)).scene;
-                scene.map(|scene| scene.check().len())
-            });
+        let reading = std::thread::Builder::new().stack_size(1 << 20).spawn(move || {
+            let scene: Option<Scene> = read(&nested(depth)).scene;
+            scene.map(|scene| scene.check().len())
+        });
         reading.expect("a thread").join().expect("no overflow")
     };
     assert_eq!(read_in_thread(deepest), Some(0));
@@ -147,8 +138,11 @@ fn token() -> impl Strategy<Value = String> {
     ]
 }
 
+/// Every run tests the same cases: a failure is never a matter of luck.
+const SEED: u64 = 1;
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 2000, rng_seed: RngSeed::Fixed(SEED), ..ProptestConfig::default() })]
 
     #[test]
     fn any_text_is_survived(text in any::<String>()) {
@@ -178,7 +172,7 @@ proptest! {
         survives(&text);
     }
 
-    /// Without comments, what is read without errors is JSON for others, too.
+    /// But for comments and a byte order mark, what is read without errors is JSON for others, too.
     #[test]
     fn what_is_read_is_json(
         at in any::<prop::sample::Index>(),
@@ -191,7 +185,7 @@ proptest! {
         text.replace_range(start..end, &token);
         let has_comments = text.contains("//") || text.contains("/*");
         if read(&text).scene.is_some() && !has_comments {
-            let other: Result<serde_json::Value, _> = serde_json::from_str(&text);
+            let other: Result<serde_json::Value, _> = serde_json::from_str(text.trim_start_matches('\u{feff}'));
             prop_assert!(other.is_ok(), "{text}");
         }
     }

@@ -2,6 +2,7 @@
 
 use freikugel_scene::{Severity, read, schema};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use serde_json::{Map, Value as Json, json};
 use std::sync::LazyLock;
 
@@ -61,13 +62,7 @@ impl Validator {
             .all(|(keyword, wanted)| self.meets(keywords, keyword, wanted, value))
     }
 
-    fn meets(
-        &self,
-        schema: &Map<String, Json>,
-        keyword: &str,
-        wanted: &Json,
-        value: &Json,
-    ) -> bool {
+    fn meets(&self, schema: &Map<String, Json>, keyword: &str, wanted: &Json, value: &Json) -> bool {
         let alternatives = || wanted.as_array().expect("a list of schemas").iter();
         let bound = || wanted.as_f64().expect("a number");
         let count = || wanted.as_u64().expect("a count") as usize;
@@ -90,21 +85,14 @@ impl Validator {
             "const" => same(wanted, value),
             "enum" => alternatives().any(|wanted| same(wanted, value)),
             "anyOf" => alternatives().any(|schema| self.matches(schema, value)),
-            "oneOf" => {
-                alternatives()
-                    .filter(|schema| self.matches(schema, value))
-                    .count()
-                    == 1
-            }
+            "oneOf" => alternatives().filter(|schema| self.matches(schema, value)).count() == 1,
             "not" => !self.matches(wanted, value),
             "items" => value
                 .as_array()
                 .is_none_or(|list| list.iter().all(|entry| self.matches(wanted, entry))),
             "minItems" => value.as_array().is_none_or(|list| list.len() >= count()),
             "maxItems" => value.as_array().is_none_or(|list| list.len() <= count()),
-            "minLength" => value
-                .as_str()
-                .is_none_or(|text| text.chars().count() >= count()),
+            "minLength" => value.as_str().is_none_or(|text| text.chars().count() >= count()),
             "pattern" => {
                 assert_eq!(
                     wanted, "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$",
@@ -116,21 +104,15 @@ impl Validator {
                         && text[1..].bytes().all(|b| b.is_ascii_hexdigit())
                 })
             }
-            "required" => value.as_object().is_none_or(|object| {
-                alternatives().all(|key| object.contains_key(key.as_str().expect("a key")))
-            }),
-            "minProperties" => value
+            "required" => value
                 .as_object()
-                .is_none_or(|object| object.len() >= count()),
-            "maxProperties" => value
-                .as_object()
-                .is_none_or(|object| object.len() <= count()),
+                .is_none_or(|object| alternatives().all(|key| object.contains_key(key.as_str().expect("a key")))),
+            "minProperties" => value.as_object().is_none_or(|object| object.len() >= count()),
+            "maxProperties" => value.as_object().is_none_or(|object| object.len() <= count()),
             "properties" => value.as_object().is_none_or(|object| {
-                object.iter().all(|(key, value)| {
-                    wanted
-                        .get(key)
-                        .is_none_or(|schema| self.matches(schema, value))
-                })
+                object
+                    .iter()
+                    .all(|(key, value)| wanted.get(key).is_none_or(|schema| self.matches(schema, value)))
             }),
             "additionalProperties" => value.as_object().is_none_or(|object| {
                 let others = object.iter().filter(|(key, _)| {
@@ -225,10 +207,7 @@ impl Validator {
                 .map(|item| vec![item; count as usize].into())
                 .collect();
         }
-        if let Some(values) = schema
-            .get("additionalProperties")
-            .filter(|values| values.is_object())
-        {
+        if let Some(values) = schema.get("additionalProperties").filter(|values| values.is_object()) {
             return self
                 .samples(values, depth)
                 .into_iter()
@@ -239,11 +218,7 @@ impl Validator {
             return vec![self.least(schema)];
         };
         let is_variant = schema.get("maxProperties").is_some();
-        let least = if is_variant {
-            json!({})
-        } else {
-            self.least(schema)
-        };
+        let least = if is_variant { json!({}) } else { self.least(schema) };
         let mut samples = Vec::new();
         for (key, property) in properties {
             for value in self.samples(property, depth) {
@@ -278,10 +253,7 @@ fn scenes_are_valid_for_both() {
     for text in SCENES {
         let reading = read(text);
         assert!(reading.scene.is_some(), "{:?}\n{text}", reading.diagnostics);
-        assert!(
-            validator.accepts(&serde_json::from_str(text).expect("JSON")),
-            "{text}"
-        );
+        assert!(validator.accepts(&serde_json::from_str(text).expect("JSON")), "{text}");
     }
 }
 
@@ -352,8 +324,7 @@ fn apply(value: &mut Json, at: &mut usize, change: &Change) {
         *at = usize::MAX;
         return;
     }
-    let is_parent =
-        |at: usize, change: &Change| at == 1 && matches!(change, Change::Remove | Change::Rename);
+    let is_parent = |at: usize, change: &Change| at == 1 && matches!(change, Change::Remove | Change::Rename);
     match value {
         Json::Array(list) => {
             for index in 0..list.len() {
@@ -392,8 +363,11 @@ fn count(value: &Json) -> usize {
     }
 }
 
+/// Every run tests the same cases: a failure is never a matter of luck.
+const SEED: u64 = 1;
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 2000, rng_seed: RngSeed::Fixed(SEED), ..ProptestConfig::default() })]
 
     #[test]
     fn changed_scenes_are_judged_alike(

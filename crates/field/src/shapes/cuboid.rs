@@ -45,7 +45,7 @@ impl Primitive for Cuboid {
             unreachable!("four numbers")
         };
         if round > x.min(y).min(z) / 2.0 {
-            return Err("`round` of box must not exceed half the smallest edge".into());
+            return Err("`round` of `box` must not exceed half the smallest edge".into());
         }
         Ok(())
     }

@@ -49,7 +49,7 @@ impl Primitive for Cylinder {
             unreachable!("four numbers")
         };
         if round > radius || round > height / 2.0 {
-            return Err("`round` of cylinder must not exceed the radius or half the height".into());
+            return Err("`round` of `cylinder` must not exceed the radius or half the height".into());
         }
         Ok(())
     }

@@ -20,19 +20,11 @@ pub(crate) struct ChoiceNotation;
 impl<C: Choice + Sync> Notation<C> for ChoiceNotation {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<C> {
         let Written::StringLit(name) = value else {
-            let hint = format!(
-                "it is one of {}",
-                listed(C::ALL.iter().map(|entry| entry.1))
-            );
+            let hint = format!("it is one of {}", listed(C::ALL.iter().map(|entry| entry.1)));
             reader.mistyped(value, "a text", Some(hint));
             return None;
         };
-        let index = index_of(
-            reader,
-            value,
-            &name.value,
-            C::ALL.iter().map(|entry| entry.1),
-        )?;
+        let index = index_of(reader, value, &name.value, C::ALL.iter().map(|entry| entry.1))?;
         Some(C::ALL[index].0)
     }
 

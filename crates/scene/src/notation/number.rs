@@ -71,11 +71,7 @@ impl Number {
 
     /// Why a number, in the unit of files, is out of range.
     fn misplaced(&self, number: f64) -> Option<String> {
-        let unit = if self.unit == Unit::Degrees {
-            " degrees"
-        } else {
-            ""
-        };
+        let unit = if self.unit == Unit::Degrees { " degrees" } else { "" };
         let wanted = if !number.is_finite() {
             return Some("must be a finite number".into());
         } else if let Some(least) = self.least.filter(|&least| number < least) {
@@ -89,10 +85,7 @@ impl Number {
         } else if let Some(most) = self.most.filter(|&most| number > most) {
             format!("be at most {}{unit}", shown(most))
         } else {
-            format!(
-                "be below {}{unit}",
-                shown(self.below.filter(|&below| number >= below)?)
-            )
+            format!("be below {}{unit}", shown(self.below.filter(|&below| number >= below)?))
         };
         Some(format!("must {wanted}, but is {}", shown(number)))
     }
@@ -194,22 +187,19 @@ impl Notation<u32> for Number {
 fn rounded_degrees(radians: f64) -> f64 {
     let degrees = radians.to_degrees();
     let rounded = (degrees * 1e9).round() / 1e9;
-    if rounded.is_finite() {
-        rounded
-    } else {
-        degrees
-    }
+    if rounded.is_finite() { rounded } else { degrees }
 }
 
 /// A number in JSON, whole ones without a point.
 pub(crate) fn tidy(number: f64) -> Json {
     // Up to here every whole number is told apart from its neighbours.
     let is_whole = number.fract() == 0.0 && number.abs() < 9e15;
-    if is_whole {
-        json!(number as i64)
-    } else {
-        json!(number)
-    }
+    if is_whole { json!(number as i64) } else { json!(number) }
+}
+
+/// An angle in degrees in JSON.
+pub(crate) fn tidy_degrees(radians: f64) -> Json {
+    tidy(rounded_degrees(radians))
 }
 
 /// The shortest decimal that stands for the same `f32`.

@@ -37,19 +37,14 @@ const AXES: [(&str, DVec3); 6] = [
 ];
 
 /// The direction that a text names, reporting one that names none.
-pub(crate) fn named_direction(
-    reader: &mut Reader,
-    value: &Written<'_>,
-    name: &str,
-) -> Option<DVec3> {
+pub(crate) fn named_direction(reader: &mut Reader, value: &Written<'_>, name: &str) -> Option<DVec3> {
     let direction = AXES
         .iter()
         .find(|(axis, _)| *axis == name)
         .map(|&(_, direction)| direction);
     if direction.is_none() {
         let message = format!("{} can't be {}", reader.label(), quote(name));
-        let hint =
-            "a direction is [x, y, z], or one of \"x\", \"y\", \"z\", \"-x\", \"-y\", \"-z\"";
+        let hint = "a direction is [x, y, z], or one of \"x\", \"y\", \"z\", \"-x\", \"-y\", \"-z\"";
         reader.error(crate::reader::span(value), message, Some(hint.into()));
     }
     direction

@@ -1,0 +1,112 @@
+//! What the command line offers, and how it fails.
+//!
+//! Exit codes: 0 done; 1 the input or the machine won't do; 2 the words of the command line are off; 130 stopped by
+//! Ctrl-C.
+
+mod check;
+mod help;
+mod info;
+mod input;
+mod interrupt;
+mod render;
+
+use clap::{Parser, Subcommand};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+const EXAMPLES: &str = "\
+Examples:
+  freikugel render scenes/first-light.json -o first-light.png
+  freikugel render cup.json -o cup.exr --width 1920 --height 1080 --quality fine
+  freikugel check cup.json
+  freikugel help shapes torus";
+
+/// Pictures of signed distance fields.
+#[derive(Debug, Parser)]
+#[command(name = "freikugel", version, about, after_help = EXAMPLES, disable_help_subcommand = true)]
+#[command(arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Render a picture of a scene.
+    Render(render::Arguments),
+    /// Report the mistakes of scenes, and nothing else.
+    Check(SceneFiles),
+    /// Show what a scene is made of: its tree, contracts, boxes, and counts.
+    Info(SceneFile),
+    /// Print the JSON Schema of scene files.
+    Schema,
+    /// Explain a command, or the shapes: `help shapes`, `help shapes torus`.
+    Help(help::Arguments),
+}
+
+/// The scene to work on.
+#[derive(Debug, clap::Args)]
+struct SceneFile {
+    /// The scene file, or - for standard input.
+    scene: PathBuf,
+}
+
+/// The scenes to work on.
+#[derive(Debug, clap::Args)]
+struct SceneFiles {
+    /// The scene files, or - for standard input.
+    #[arg(required = true)]
+    scenes: Vec<PathBuf>,
+}
+
+/// How a command ends when it does not succeed.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The input or the machine won't do. The message has been printed already if it is empty.
+    Input(String),
+    /// The words of the command line are off.
+    Usage(String),
+    /// The user stopped it.
+    Interrupted,
+}
+
+impl Failure {
+    /// Says what is wrong, and which code to exit with.
+    pub(crate) fn report(self) -> ExitCode {
+        let (message, code) = match self {
+            Self::Input(message) => (message, 1),
+            Self::Usage(message) => (message, 2),
+            Self::Interrupted => ("stopped; nothing was written".to_owned(), 130),
+        };
+        if !message.is_empty() {
+            eprintln!("freikugel: {message}");
+        }
+        ExitCode::from(code)
+    }
+}
+
+/// Writes to standard output. A reader that has seen enough (`| head`) is no failure.
+fn print(text: &str) -> Result<(), Failure> {
+    use std::io::Write;
+    match std::io::stdout().lock().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::Input(format!("can't write to standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Runs a command.
+pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
+    match arguments.command {
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Check(files) => check::run(&files.scenes),
+        Command::Info(file) => info::run(&file.scene),
+        Command::Schema => {
+            let schema = freikugel::scene::schema();
+            let text = serde_json::to_string_pretty(&schema).map_err(|error| Failure::Input(error.to_string()))?;
+            print(&(text + "\n"))
+        }
+        Command::Help(arguments) => help::run(&arguments),
+    }
+}

@@ -1,0 +1,23 @@
+//! `freikugel check`: diagnostics only.
+
+use super::{Failure, input};
+use std::path::PathBuf;
+
+/// Checks all scenes, also after one that has errors.
+pub(super) fn run(scenes: &[PathBuf]) -> Result<(), Failure> {
+    let mut broken = 0;
+    for path in scenes {
+        match input::scene(path) {
+            Ok(_) => {}
+            Err(failure) => {
+                broken += 1;
+                failure.report();
+            }
+        }
+    }
+    if broken == 0 {
+        Ok(())
+    } else {
+        Err(Failure::Input(String::new()))
+    }
+}

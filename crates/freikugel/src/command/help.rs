@@ -1,0 +1,110 @@
+//! `freikugel help`: the commands, and the shapes from their descriptors.
+
+use super::{Failure, print};
+use clap::CommandFactory;
+use freikugel::field::{Arity, Param, ParamKind, Shape, shapes};
+use std::fmt::Write;
+
+/// Explain a command, or the shapes.
+#[derive(Debug, clap::Args)]
+pub(super) struct Arguments {
+    /// A command, or `shapes` and perhaps the name of one.
+    topic: Vec<String>,
+}
+
+/// Prints the explanation.
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let topic: Vec<&str> = arguments.topic.iter().map(String::as_str).collect();
+    match topic[..] {
+        [] => print(&super::Arguments::command().render_help().to_string()),
+        ["shapes"] => print(&list()),
+        ["shapes", name] => {
+            let shape = shapes::ALL.iter().find(|shape| shape.about.name == name);
+            let shape = shape.ok_or_else(|| {
+                Failure::Usage(format!(
+                    "there is no shape {name:?}; `freikugel help shapes` lists them"
+                ))
+            })?;
+            print(&describe(shape))
+        }
+        [name] => {
+            let mut command = super::Arguments::command();
+            command.build();
+            match command.find_subcommand_mut(name) {
+                Some(command) => print(&command.render_long_help().to_string()),
+                None => Err(Failure::Usage(format!(
+                    "there is no command {name:?}; `freikugel help` lists them"
+                ))),
+            }
+        }
+        _ => Err(Failure::Usage("give one command, or `shapes` and a name".into())),
+    }
+}
+
+fn list() -> String {
+    let mut text = String::new();
+    let kinds = [
+        (Arity::None, "Primitives"),
+        (Arity::Many, "Combinations"),
+        (Arity::One, "Changes"),
+    ];
+    for (arity, title) in kinds {
+        let _ = writeln!(text, "{title}:");
+        for shape in shapes::ALL.iter().filter(|shape| shape.arity() == arity) {
+            let _ = writeln!(text, "  {:24} {}", shape.about.name, shape.about.summary);
+        }
+        text.push('\n');
+    }
+    text
+}
+
+fn describe(shape: &Shape) -> String {
+    let about = &shape.about;
+    let mut text = format!("{}: {}\n\n", about.name, about.summary);
+    for param in about.params {
+        let _ = writeln!(text, "  {:16} {}", param.name, param.about);
+        let _ = writeln!(text, "  {:16} {}", "", values(param));
+    }
+    match shape.arity() {
+        Arity::None => {}
+        Arity::One => text.push_str("  shape            The shape that is changed.\n"),
+        Arity::Many => {
+            text.push_str("  shapes           One or more shapes, in order; they may stand alone as a list.\n")
+        }
+    }
+    if !about.elsewhere.is_empty() {
+        let _ = writeln!(text, "\nKnown elsewhere as: {}", about.elsewhere.join(", "));
+    }
+    let _ = writeln!(text, "\nExample:\n  {}", about.example);
+    text
+}
+
+/// What a parameter takes, in a few words.
+fn values(param: &Param) -> String {
+    let kind = match param.kind {
+        ParamKind::Number => "a number".to_owned(),
+        ParamKind::Length => "a length, 0 or more".into(),
+        ParamKind::Positive => "a length above 0".into(),
+        ParamKind::Factor => "a number other than 0".into(),
+        ParamKind::Angle => "degrees".into(),
+        ParamKind::Choice(names) => format!("one of {}", names.join(", ")),
+        ParamKind::Flag => "true or false".into(),
+        ParamKind::Vector => "[x, y, z]".into(),
+        ParamKind::Direction => "[x, y, z], or an axis such as \"x\" or \"-z\"".into(),
+        ParamKind::Size => "[x, y, z], or one number for all three".into(),
+        ParamKind::Factors => "[x, y, z], none of them 0".into(),
+        ParamKind::Angles => "[x, y, z] in degrees".into(),
+        ParamKind::Quaternion => "[x, y, z, w]".into(),
+        ParamKind::HalfSpaces => "a list of [x, y, z, d]".into(),
+    };
+    let default = match (param.default, param.kind) {
+        (None, _) => "required".to_owned(),
+        (Some(numbers), ParamKind::Choice(names)) => format!("{} if left out", names[numbers[0] as usize]),
+        (Some(numbers), ParamKind::Flag) => format!("{} if left out", numbers[0] != 0.0),
+        (Some(numbers), _) => {
+            let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
+            format!("{} if left out", numbers.join(", "))
+        }
+    };
+    format!("({kind}; {default})")
+}

@@ -1,0 +1,97 @@
+//! `freikugel info`: what a scene is made of.
+
+use super::{Failure, input, print};
+use freikugel::field::{Contract, Extent, Field, Metric, Structure, analyse, extent};
+use freikugel::scene::Scene;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Prints the scene's objects with their trees, and the sums.
+pub(super) fn run(path: &Path) -> Result<(), Failure> {
+    let scene = input::scene(path)?;
+    print(&describe(&scene))
+}
+
+fn describe(scene: &Scene) -> String {
+    let mut text = String::new();
+    let (mut nodes, mut primitives) = (0, 0);
+    for object in &scene.objects {
+        let material = object
+            .material
+            .and_then(|id| scene.materials.get(id.0 as usize))
+            .map_or("", |(name, _)| name);
+        let _ = writeln!(
+            text,
+            "object {:?}, material {material:?}, {}",
+            object.name,
+            boxed(extent(&object.shape))
+        );
+        if let (Some(analysis), _) = analyse(&object.shape) {
+            nodes += analysis.nodes;
+            primitives += analysis.primitives;
+        }
+        tree(&object.shape, 1, scene, &mut text);
+    }
+    let shapes: Vec<Field> = scene.objects.iter().map(|object| object.shape.clone()).collect();
+    let operations = Structure::compile(&shapes).map_or(0, |structure| structure.operations());
+    let _ = writeln!(
+        text,
+        "{} objects, {nodes} nodes, {primitives} primitives, {operations} operations, {} materials, {} lights",
+        scene.objects.len(),
+        scene.materials.len(),
+        scene.lights.len()
+    );
+    text
+}
+
+fn tree(field: &Field, depth: usize, scene: &Scene, text: &mut String) {
+    let node = field.node();
+    let about = &node.shape.about;
+    let _ = write!(text, "{:indent$}{}", "", about.name, indent = 2 * depth);
+    for (index, param) in about.params.iter().enumerate() {
+        let numbers: Vec<String> = node.argument(index).iter().map(|number| format!("{number}")).collect();
+        let _ = write!(text, " {}={}", param.name, numbers.join(","));
+    }
+    if let Some((name, _)) = node.material.and_then(|id| scene.materials.get(id.0 as usize)) {
+        let _ = write!(text, " material={name:?}");
+    }
+    if let (Some(analysis), _) = analyse(field) {
+        let _ = write!(text, "  [{}]", promise(analysis.contract));
+    }
+    text.push('\n');
+    for child in &node.children {
+        tree(child, depth + 1, scene, text);
+    }
+}
+
+fn promise(contract: Contract) -> String {
+    let name = |metric| match metric {
+        Metric::Exact => "exact",
+        Metric::Bound => "bound",
+        Metric::Implicit => "implicit",
+    };
+    let mut text = match (contract.signed, contract.outside == contract.inside) {
+        (false, _) => format!("{}, unsigned", name(contract.outside)),
+        (true, true) => name(contract.outside).to_owned(),
+        (true, false) => format!("{} outside, {} inside", name(contract.outside), name(contract.inside)),
+    };
+    match contract.lipschitz {
+        Some(1.0) => {}
+        Some(constant) => {
+            let _ = write!(text, ", slope at most {constant}");
+        }
+        None => text.push_str(", slope unknown"),
+    }
+    text
+}
+
+fn boxed(extent: Extent) -> String {
+    match extent {
+        Extent::Empty => "empty".into(),
+        Extent::Unbounded => "unbounded".into(),
+        Extent::Finite(aabb) => {
+            let corner = |c: glam::DVec3| format!("({:.4}, {:.4}, {:.4})", c.x, c.y, c.z);
+            format!("box {} to {}", corner(aabb.min), corner(aabb.max))
+        }
+    }
+}

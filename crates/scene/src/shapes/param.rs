@@ -1,0 +1,198 @@
+//! Parameters of shapes: how each [`ParamKind`] is written.
+
+use crate::notation::{Notation, direction_schema, index_of, named_direction, numbers_schema, tidy, tidy_degrees};
+use crate::reader::Reader;
+use crate::schema::Definitions;
+use crate::suggest::listed;
+use crate::syntax::Written;
+use freikugel_field::ParamKind;
+use serde_json::{Value as Json, json};
+
+/// What is wrong with a list parameter that lists nothing.
+const NO_ENTRIES: &str = "must have an entry";
+
+/// The numbers of one parameter, as a node holds them.
+impl Notation<Vec<f64>> for ParamKind {
+    fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
+        let numbers = match (*self, value) {
+            (Self::Number | Self::Length | Self::Positive | Self::Factor, _) => {
+                vec![reader.number(value)?]
+            }
+            (Self::Angle, _) => vec![reader.number(value)?.to_radians()],
+            (Self::Choice(names), _) => vec![choice(reader, names, value)? as f64],
+            (Self::Flag, Written::BooleanLit(literal)) => vec![f64::from(u8::from(literal.value))],
+            (Self::Flag, _) => {
+                reader.mistyped(value, "`true` or `false`", None);
+                return None;
+            }
+            (Self::Direction, Written::StringLit(name)) => {
+                named_direction(reader, value, &name.value)?.to_array().to_vec()
+            }
+            (Self::Size, Written::NumberLit(_)) => vec![reader.number(value)?; 3],
+            (Self::Size, Written::Array(_)) | (Self::Vector | Self::Direction | Self::Factors, _) => {
+                reader.numbers(value, ["x", "y", "z"])?.to_vec()
+            }
+            (Self::Size, _) => {
+                reader.mistyped(value, "a number or a list of 3 numbers, [x, y, z]", None);
+                return None;
+            }
+            (Self::Angles, _) => reader.numbers(value, ["x", "y", "z"])?.map(f64::to_radians).to_vec(),
+            (Self::Quaternion, _) => reader.numbers(value, ["x", "y", "z", "w"])?.to_vec(),
+            (Self::HalfSpaces, _) => half_spaces(reader, value)?,
+        };
+        let fault = if numbers.is_empty() {
+            Some(NO_ENTRIES.into())
+        } else {
+            ParamKind::fault(*self, &numbers)
+        };
+        reader.sound(value, numbers, fault)
+    }
+
+    fn write(&self, value: &Vec<f64>) -> Option<Json> {
+        let first = *value.first()?;
+        Some(match *self {
+            Self::Number | Self::Length | Self::Positive | Self::Factor => tidy(first),
+            Self::Angle => tidy_degrees(first),
+            Self::Angles => value.iter().map(|&angle| tidy_degrees(angle)).collect(),
+            Self::Choice(names) => {
+                let name = *names.get(first as usize)?;
+                name.parse().map_or_else(|_| json!(name), tidy)
+            }
+            Self::Flag => json!(first != 0.0),
+            Self::HalfSpaces => value.chunks(4).map(list).collect(),
+            Self::Vector | Self::Direction | Self::Size | Self::Factors | Self::Quaternion => list(value),
+        })
+    }
+
+    fn schema(&self, _definitions: &mut Definitions) -> Json {
+        let factor = || json!({ "type": "number", "not": { "const": 0 } });
+        let length = || json!({ "type": "number", "exclusiveMinimum": 0 });
+        let three = |item: Json| json!({ "type": "array", "items": item, "minItems": 3, "maxItems": 3 });
+        match *self {
+            Self::Number | Self::Angle => json!({ "type": "number" }),
+            Self::Length => json!({ "type": "number", "minimum": 0 }),
+            Self::Positive => length(),
+            Self::Factor => factor(),
+            Self::Choice(names) => {
+                let numbers = names.iter().filter_map(|name| name.parse().ok()).map(tidy);
+                let numbers = numbers.filter(|_| are_numbers(names));
+                json!({ "enum": names.iter().map(|name| json!(name)).chain(numbers).collect::<Vec<_>>() })
+            }
+            Self::Flag => json!({ "type": "boolean" }),
+            Self::Vector | Self::Angles => numbers_schema(3),
+            Self::Direction => direction_schema(),
+            Self::Size => json!({ "anyOf": [length(), three(length())] }),
+            Self::Factors => three(factor()),
+            Self::Quaternion => numbers_schema(4),
+            Self::HalfSpaces => {
+                json!({ "type": "array", "items": numbers_schema(4), "minItems": 1 })
+            }
+        }
+    }
+}
+
+fn list(numbers: &[f64]) -> Json {
+    numbers.iter().map(|&number| tidy(number)).collect()
+}
+
+/// The place of a choice among its names.
+fn choice(reader: &mut Reader, names: &'static [&'static str], value: &Written<'_>) -> Option<usize> {
+    match value {
+        Written::StringLit(name) => index_of(reader, value, &name.value, names.iter().copied()),
+        Written::NumberLit(literal) if are_numbers(names) => {
+            let number = reader.number(value)?;
+            let index = names.iter().position(|name| name.parse() == Ok(number));
+            index.or_else(|| index_of(reader, value, literal.value, names.iter().copied()))
+        }
+        _ => {
+            reader.mistyped(value, &format!("one of {}", listed(names.iter().copied())), None);
+            None
+        }
+    }
+}
+
+/// Whether all names of a choice are numbers, which may then stand without quotes.
+fn are_numbers(names: &[&str]) -> bool {
+    names.iter().all(|name| name.parse::<f64>().is_ok())
+}
+
+fn half_spaces(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
+    let Written::Array(array) = value else {
+        reader.mistyped(value, "a list of half-spaces, [x, y, z, d] each", None);
+        return None;
+    };
+    let mut numbers = Vec::new();
+    let mut is_sound = true;
+    let outer = reader.label().to_string();
+    for (index, element) in array.elements.iter().enumerate() {
+        let label = format!("entry {} of {outer}", index + 1);
+        let plane = reader.labelled(label, |reader| reader.numbers(element, ["x", "y", "z", "d"]));
+        is_sound &= plane.is_some();
+        numbers.extend(plane.into_iter().flatten());
+    }
+    is_sound.then_some(numbers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Notation, ParamKind, Reader};
+    use crate::syntax::parse;
+    use serde_json::json;
+
+    fn read(kind: ParamKind, text: &str) -> Result<Vec<f64>, String> {
+        let mut reader = Reader::new();
+        let value = parse(text, &mut reader.diagnostics).expect("JSON");
+        kind.read(&mut reader, &value)
+            .ok_or_else(|| reader.diagnostics[0].message.clone())
+    }
+
+    #[test]
+    fn values_are_stored_as_nodes_want_them() {
+        const ORDER: ParamKind = ParamKind::Choice(&["2", "3"]);
+        for (kind, text, numbers) in [
+            (ParamKind::Angle, "180", vec![std::f64::consts::PI]),
+            (ParamKind::Angles, "[0, 0, 180]", vec![0.0, 0.0, std::f64::consts::PI]),
+            (ParamKind::Direction, "\"-y\"", vec![0.0, -1.0, 0.0]),
+            (ParamKind::Direction, "[1, 2, 3]", vec![1.0, 2.0, 3.0]),
+            (ParamKind::Size, "2", vec![2.0; 3]),
+            (ParamKind::Flag, "true", vec![1.0]),
+            (ParamKind::Quaternion, "[0, 0, 0, 1]", vec![0.0, 0.0, 0.0, 1.0]),
+            (
+                ParamKind::HalfSpaces,
+                "[[1, 0, 0, 1], [0, 1, 0, 2]]",
+                vec![1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 2.0],
+            ),
+            (ORDER, "\"3\"", vec![1.0]),
+            (ORDER, "3", vec![1.0]),
+            (ORDER, "2.0", vec![0.0]),
+        ] {
+            assert_eq!(read(kind, text), Ok(numbers), "{kind:?} {text}");
+        }
+        for (kind, text) in [
+            (ORDER, "4"),
+            (ORDER, "true"),
+            (ParamKind::Choice(&["x", "y"]), "0"),
+            (ParamKind::Flag, "1"),
+            (ParamKind::Vector, "\"x\""),
+            (ParamKind::Factors, "[1, 0, 1]"),
+            (ParamKind::Quaternion, "[0, 0, 0, 0]"),
+        ] {
+            assert!(read(kind, text).is_err(), "{kind:?} {text}");
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        for (kind, written) in [
+            (ParamKind::Angle, json!(30)),
+            (ParamKind::Angles, json!([10, 20.5, 33])),
+            (ParamKind::Choice(&["x", "y"]), json!("y")),
+            (ParamKind::Flag, json!(false)),
+            (ParamKind::Size, json!([1, 2, 3])),
+            (ParamKind::HalfSpaces, json!([[1, 0, 0, 0.5]])),
+        ] {
+            let numbers = read(kind, &written.to_string()).expect("it is sound");
+            assert_eq!(kind.write(&numbers), Some(written));
+        }
+    }
+}
