@@ -76,17 +76,18 @@ pub(crate) struct End {
     pub(crate) factor: f32,
 }
 
-/// The rays on their way.
+/// The rays on their way. All buffers are as long as the fullest wave so far.
 #[derive(Default)]
 pub(crate) struct March {
+    count: usize,
     id: Vec<u32>,
+    steps: Vec<u32>,
     origin: [Vec<f32>; 3],
     direction: [Vec<f32>; 3],
     t: Vec<f32>,
     end: Vec<f32>,
     base: Vec<f32>,
     slope: Vec<f32>,
-    steps: Vec<u32>,
     sharpness: Vec<f32>,
     /// The factor so far.
     factor: Vec<f32>,
@@ -96,40 +97,78 @@ pub(crate) struct March {
     value: Vec<f32>,
     /// Whether the last step moved the ray, so that its value is that of a point it has left.
     moved: Vec<bool>,
+    /// Where the rays are that stay in a sweep.
+    kept: Vec<u32>,
 }
 
 impl March {
     /// Adds a ray.
     pub(crate) fn push(&mut self, ray: &Start) {
-        self.id.push(ray.id);
-        for axis in 0..3 {
-            self.origin[axis].push(ray.origin[axis]);
-            self.direction[axis].push(ray.direction[axis]);
+        let place = self.count;
+        self.count += 1;
+        if place == self.id.len() {
+            self.grow();
         }
-        self.t.push(ray.span[0]);
-        self.end.push(ray.span[1]);
-        self.base.push(ray.tolerance[0]);
-        self.slope.push(ray.tolerance[1]);
-        self.steps.push(ray.steps);
-        self.sharpness.push(ray.sharpness);
-        self.factor.push(1.0);
-        self.before.push(0.0);
+        self.id[place] = ray.id;
+        self.steps[place] = ray.steps;
+        for axis in 0..3 {
+            self.origin[axis][place] = ray.origin[axis];
+            self.direction[axis][place] = ray.direction[axis];
+        }
+        self.t[place] = ray.span[0];
+        self.end[place] = ray.span[1];
+        self.base[place] = ray.tolerance[0];
+        self.slope[place] = ray.tolerance[1];
+        self.sharpness[place] = ray.sharpness;
+        self.factor[place] = 1.0;
+        self.before[place] = 0.0;
+    }
+
+    #[cold]
+    fn grow(&mut self) {
+        let length = (self.id.len() * 2).max(256);
+        let Self {
+            id, steps, moved, kept, ..
+        } = self;
+        for numbers in [id, steps, kept] {
+            numbers.resize(length, 0);
+        }
+        moved.resize(length, false);
+        let Self {
+            origin,
+            direction,
+            t,
+            end,
+            base,
+            slope,
+            sharpness,
+            factor,
+            before,
+            ..
+        } = self;
+        for numbers in origin.iter_mut().chain(direction).chain([t, end, base, slope]) {
+            numbers.resize(length, 0.0);
+        }
+        let Self { point, value, .. } = self;
+        for numbers in point.iter_mut().chain([sharpness, factor, before, value]) {
+            numbers.resize(length, 0.0);
+        }
     }
 
     /// Whether no ray is on its way.
     pub(crate) fn is_empty(&self) -> bool {
-        self.id.is_empty()
+        self.count == 0
     }
 
     /// Takes all rays to their first surface. Appends how they ended, in no particular order, and returns how
     /// many field values that took.
     pub(crate) fn hard(&mut self, field: &mut Evaluator<'_>, pace: Pace, ends: &mut Vec<End>) -> u64 {
-        self.run(field, pace, ends, Self::advance_hard)
+        self.run(field, pace, ends, Self::advance_hard, false)
     }
 
     /// Takes all rays to the first surface, or to their end while looking for the least factor.
     pub(crate) fn soft(&mut self, field: &mut Evaluator<'_>, pace: Pace, ends: &mut Vec<End>) -> u64 {
-        self.run(field, pace, ends, Self::advance_soft)
+        self.run(field, pace, ends, Self::advance_soft, true)
     }
 
     fn run(
@@ -138,46 +177,37 @@ impl March {
         pace: Pace,
         ends: &mut Vec<End>,
         advance: fn(&mut Self, Pace) -> usize,
+        is_soft: bool,
     ) -> u64 {
         let mut evaluations = 0;
-        while !self.id.is_empty() {
-            let count = self.id.len();
-            self.locate(count);
+        while self.count > 0 {
+            let count = self.count;
+            for axis in 0..3 {
+                let (point, t) = (&mut self.point[axis][..count], &self.t[..count]);
+                let origin = &self.origin[axis][..count];
+                let direction = &self.direction[axis][..count];
+                for ray in 0..count {
+                    point[ray] = origin[ray] + t[ray] * direction[ray];
+                }
+            }
             let [x, y, z] = &self.point;
-            field.values(
-                Points {
-                    x: &x[..count],
-                    y: &y[..count],
-                    z: &z[..count],
-                },
-                &mut self.value[..count],
-            );
+            let points = Points {
+                x: &x[..count],
+                y: &y[..count],
+                z: &z[..count],
+            };
+            field.values(points, &mut self.value[..count]);
             evaluations += count as u64;
             if advance(self, pace) * IDLE_SHARE >= count {
-                self.sweep(ends);
+                self.sweep(ends, is_soft);
             }
         }
         evaluations
     }
 
-    /// Computes where the rays are.
-    fn locate(&mut self, count: usize) {
-        self.value.resize(count.max(self.value.len()), 0.0);
-        self.moved.resize(count.max(self.moved.len()), false);
-        for axis in 0..3 {
-            let point = &mut self.point[axis];
-            point.resize(count.max(point.len()), 0.0);
-            let (point, t) = (&mut point[..count], &self.t[..count]);
-            let (origin, direction) = (&self.origin[axis][..count], &self.direction[axis][..count]);
-            for ray in 0..count {
-                point[ray] = origin[ray] + t[ray] * direction[ray];
-            }
-        }
-    }
-
     /// Takes one step with all rays that are not done, and returns how many are.
     fn advance_hard(&mut self, pace: Pace) -> usize {
-        let count = self.id.len();
+        let count = self.count;
         let factor = pace.scale * pace.step_factor;
         let (value, t, end) = (&self.value[..count], &mut self.t[..count], &self.end[..count]);
         let (base, slope) = (&self.base[..count], &self.slope[..count]);
@@ -200,7 +230,7 @@ impl March {
     /// the least ratio so far misses no smaller one. Where that would be tiny, the step is a fixed part of the
     /// clearance instead; the whole of it if the ratio is steady, as it is on the way from a flat surface.
     fn advance_soft(&mut self, pace: Pace) -> usize {
-        let count = self.id.len();
+        let count = self.count;
         let (value, t, end) = (&self.value[..count], &mut self.t[..count], &self.end[..count]);
         let (base, slope) = (&self.base[..count], &self.slope[..count]);
         let (sharpness, factor) = (&self.sharpness[..count], &mut self.factor[..count]);
@@ -235,19 +265,19 @@ impl March {
     }
 
     /// Takes the rays that are done out of the buffers.
-    fn sweep(&mut self, ends: &mut Vec<End>) {
-        let count = self.id.len();
+    fn sweep(&mut self, ends: &mut Vec<End>, is_soft: bool) {
         let mut kept = 0;
-        for ray in 0..count {
+        for ray in 0..self.count {
             let (t, value, factor) = (self.t[ray], self.value[ray], self.factor[ray]);
-            let limit = self.base[ray] + self.slope[ray] * t;
-            let fate = if t >= self.end[ray] || factor < NEGLIGIBLE {
-                Fate::Passed
-            } else if self.moved[ray] {
-                self.keep(ray, kept);
+            let is_past = t >= self.end[ray] || factor < NEGLIGIBLE;
+            if self.moved[ray] && !is_past {
+                self.kept[kept] = ray as u32;
                 kept += 1;
                 continue;
-            } else if value < limit {
+            }
+            let fate = if is_past {
+                Fate::Passed
+            } else if value < self.base[ray] + self.slope[ray] * t {
                 Fate::Hit
             } else {
                 Fate::Exhausted
@@ -266,41 +296,36 @@ impl March {
                 factor,
             });
         }
-        self.truncate(kept);
-    }
-
-    fn keep(&mut self, from: usize, to: usize) {
-        self.id[to] = self.id[from];
-        self.steps[to] = self.steps[from];
-        for numbers in self.numbers() {
-            numbers[to] = numbers[from];
-        }
-    }
-
-    fn truncate(&mut self, count: usize) {
-        self.id.truncate(count);
-        self.steps.truncate(count);
-        for numbers in self.numbers() {
-            numbers.truncate(count);
-        }
-    }
-
-    fn numbers(&mut self) -> impl Iterator<Item = &mut Vec<f32>> {
+        // Buffer by buffer, since each fits the first-level cache and all of them together do not.
         let Self {
+            id,
+            steps,
             origin,
             direction,
             t,
             end,
             base,
             slope,
-            sharpness,
-            factor,
-            before,
             ..
         } = self;
-        origin
-            .iter_mut()
-            .chain(direction)
-            .chain([t, end, base, slope, sharpness, factor, before])
+        let places = &self.kept[..kept];
+        pack(id, places);
+        pack(steps, places);
+        for numbers in origin.iter_mut().chain(direction).chain([t, end, base, slope]) {
+            pack(numbers, places);
+        }
+        if is_soft {
+            for numbers in [&mut self.sharpness, &mut self.factor, &mut self.before] {
+                pack(numbers, places);
+            }
+        }
+        self.count = kept;
+    }
+}
+
+/// Moves the numbers at `places`, which rise, to the front.
+fn pack<T: Copy>(numbers: &mut [T], places: &[u32]) {
+    for (to, &from) in places.iter().enumerate() {
+        numbers[to] = numbers[from as usize];
     }
 }

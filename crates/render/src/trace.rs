@@ -179,8 +179,7 @@ impl<'f> Tracer<'f> {
         self.stats.rays.camera += 1;
     }
 
-    /// Traces all rays of the wave and collects what they hit. Materials and objects are found where `surfaces` asks
-    /// for them.
+    /// Traces all rays of the wave and collects what they hit.
     pub(crate) fn trace(&mut self) {
         self.land();
         self.collect_marched();
@@ -224,9 +223,16 @@ impl<'f> Tracer<'f> {
                 let gradient = self.cloud.gradient_at(index);
                 let slope = length(gradient);
                 let in_values = slope.max(FLATTEST) * pace.scale;
-                let limit = start.tolerance[0] + start.tolerance[1] * end.t;
-                if end.fate == Fate::Hit && end.value > FALSE_HIT * limit * in_values {
-                    start.tolerance = start.tolerance.map(|number| number * in_values);
+                let [base, growth] = start.tolerance;
+                let limit = base + growth * end.t;
+                // Rounding errors of values do not shrink with the slope.
+                let finer = [
+                    (base * in_values).max(rounding(length(start.origin))),
+                    (growth * in_values).max(rounding(1.0)),
+                ];
+                let is_false = end.value > FALSE_HIT * limit * in_values && end.value > finer[0] + finer[1] * end.t;
+                if end.fate == Fate::Hit && is_false {
+                    start.tolerance = finer;
                     self.march.push(&Start {
                         span: [end.t, start.span[1]],
                         steps: end.steps,
@@ -269,7 +275,7 @@ impl<'f> Tracer<'f> {
             self.stats.evaluations += self.cloud.shares(field, &mut self.shares);
         }
         for (index, landing) in self.landings.iter().enumerate() {
-            let CameraRay { ray, begin, start, .. } = &self.rays[landing.ray as usize];
+            let CameraRay { begin, start, .. } = &self.rays[landing.ray as usize];
             let share = |region: usize| self.shares.of(region)[index];
             let main = match asks_for_shares {
                 true => (1..paints.len()).fold(
@@ -323,7 +329,6 @@ impl<'f> Tracer<'f> {
                 gradient: slope.clamp(FLATTEST, 1.0),
                 surface,
             });
-            debug_assert!(ray.direction.is_finite());
         }
     }
 
@@ -361,6 +366,7 @@ impl<'f> Tracer<'f> {
             }
             self.stats.evaluations += self.cloud.gradients(evaluator);
             for (place, hit) in self.hits[first..].iter_mut().enumerate() {
+                self.stats.inside += u64::from(hit.distance == 0.0 && !paint.is_sheet);
                 let gradient = self.cloud.gradient_at(place);
                 let normal = scaled(gradient, 1.0 / length(gradient));
                 let is_seen_from_behind = paint.is_sheet && dot(normal, hit.viewer) < 0.0;

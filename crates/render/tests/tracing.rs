@@ -132,12 +132,21 @@ fn a_camera_inside_an_object_sees_its_material_and_says_so() {
     assert_eq!(rendered.stats.inside, 256);
     assert_eq!(rendered.stats.hits, 256);
     assert_eq!(picture(&still_life(), &options(16, 16)).stats.inside, 0);
+
+    // Below ground is inside the half-space.
+    let eye = DVec3::new(0.0, -5.0, -2.0);
+    scene.camera = Some(Camera {
+        eye,
+        target: DVec3::ZERO,
+        ..Camera::default()
+    });
+    assert_eq!(picture(&scene, &options(16, 16)).stats.inside, 256);
 }
 
 #[test]
 fn a_flat_field_makes_no_false_hits() {
     // Stretched a hundred times along y, a ball's field falls to a hundredth of the distance beyond its tips. Stopping by
-    // value alone would lengthen the needle by a hundred tolerances, here by half of it.
+    // value alone would lengthen the needle by a hundred tolerances, here by 0.5.
     let shape = sphere(0.1).stretch([1.0, 100.0, 1.0]);
     let mut scene = Scene {
         camera: Some(from_above(50.0, 6.0)),
@@ -147,11 +156,13 @@ fn a_flat_field_makes_no_false_hits() {
     scene.camera.as_mut().expect("a camera").eye.y = 12.0;
     scene.camera.as_mut().expect("a camera").target.y = 12.0;
     scene.tracing = Tracing {
-        precision: 1e-3,
-        max_steps: 10_000,
+        precision: 1e-4,
+        max_steps: 100_000,
         ..Tracing::default()
     };
     add(&mut scene, shape, chalk());
+    // Something beyond the picture, so that the objects' box does not end at the tip.
+    add(&mut scene, sphere(0.1).at([0.0, 30.0, 0.0]), chalk());
     let rendered = picture(&scene, &options(5, 121));
     assert_eq!(rendered.stats.unresolved.pixels, 0);
     // The column through the axis shows y from 15 at the top to 9 at the bottom.
