@@ -5,8 +5,8 @@
 //! every primitive subtracts one anyway; a primitive under a union is folded into the running minimum in one kernel.
 //!
 //! A structure holds no numbers, only where they come from: each operation's constants are described by a `Derive`,
-//! which binding evaluates in `f64`. Changing a number never changes the structure, with one exception: the number of
-//! entries in a list.
+//! which binding evaluates in `f64`. Changing a number never changes the structure, with two exceptions: the number of
+//! entries in a list, and the axis an axial shape stands along.
 
 use crate::analysis::{analyse, axis_map};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -16,9 +16,12 @@ use crate::program::{BindError, Program};
 use crate::shape::{CombineTable, Kind, ModifyTable, PlaceTable, PrimitiveTable};
 use crate::shapes;
 use glam::{DMat3, DVec3};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 use std::sync::Arc;
+
+/// The axis that formulas of axial shapes are written for: a shape along it needs no map.
+const FORMULA_AXIS: usize = 2;
 
 /// One operation. Registers are numbered from 0; point register 0 holds the point itself.
 #[derive(Clone, Debug)]
@@ -128,6 +131,8 @@ pub(crate) struct Code {
     pub(crate) registers: Registers,
     pub(crate) share_registers: Registers,
     pub(crate) regions: Vec<Region>,
+    /// The slots whose numbers shaped the code.
+    fixed: BTreeSet<usize>,
 }
 
 /// How many registers of each kind a program needs, and where the result ends up.
@@ -157,6 +162,7 @@ impl Structure {
             registers,
             share_registers,
             regions: compiler.regions,
+            fixed: compiler.fixed,
         };
         let values = compiler.values;
         Ok(Self {
@@ -192,14 +198,16 @@ impl Structure {
     /// is spent on what lies near there.
     ///
     /// # Errors
-    /// If there are not as many numbers as slots, if they are no sound arguments, or if a shape would need another number
-    /// of constants with them.
+    /// If there are not as many numbers as slots, if they are no sound arguments, or if they need other operations.
     pub fn bind(&self, values: &[f64], origin: DVec3) -> Result<Program, BindError> {
         if values.len() != self.values.len() {
             return Err(BindError::Count {
                 given: values.len(),
                 wanted: self.values.len(),
             });
+        }
+        if self.code.fixed.iter().any(|&slot| values[slot] != self.values[slot]) {
+            return Err(BindError::Structure);
         }
         let mut lipschitz = self.lipschitz;
         if values != self.values {
@@ -252,6 +260,7 @@ struct Compiler {
     constants: usize,
     regions: Vec<Region>,
     region_index: HashMap<Region, usize>,
+    fixed: BTreeSet<usize>,
     /// Where the constants of each `Derive` in `derive` that was requested before lie, by what it was requested for.
     known: HashMap<Wanted, Range<usize>>,
 }
@@ -377,8 +386,12 @@ impl Compiler {
             Kind::Primitive(table) => {
                 let outer = space;
                 let mut space = space.clone();
-                if node.axis().is_some() {
-                    space.chain.push(Link::Axis { arg: tree.args.end - 1 });
+                if let Some(axis) = node.axis() {
+                    let arg = tree.args.end - 1;
+                    self.fixed.insert(arg);
+                    if axis != FORMULA_AXIS {
+                        space.chain.push(Link::Axis { arg });
+                    }
                 }
                 if !space.chain.iter().all(Link::is_translation) {
                     space = self.materialise(emission, &space);

@@ -184,16 +184,28 @@ impl Field {
     #[track_caller]
     fn fold(shape: &'static Shape, a: Field, b: Field) -> Self {
         let origin = Origin::Code(Location::caller());
-        let children = match Arc::try_unwrap(a.0) {
-            Ok(node) if std::ptr::eq(node.shape, shape) => {
-                let mut children = node.children;
+        let mut a = a;
+        let children = match Arc::get_mut(&mut a.0) {
+            Some(node) if std::ptr::eq(node.shape, shape) => {
+                let mut children = std::mem::take(&mut node.children);
                 children.push(b);
                 children
             }
-            Ok(node) => vec![Field(Arc::new(node)), b],
-            Err(shared) => vec![Field(shared), b],
+            _ => vec![a, b],
         };
         Self::with_origin(shape, [], children, None, origin)
+    }
+}
+
+/// Takes a tree down from the top: a chain of any length must not exhaust the stack.
+impl Drop for Node {
+    fn drop(&mut self) {
+        let mut pending = std::mem::take(&mut self.children);
+        while let Some(field) = pending.pop() {
+            if let Some(mut node) = Arc::into_inner(field.0) {
+                pending.append(&mut node.children);
+            }
+        }
     }
 }
 

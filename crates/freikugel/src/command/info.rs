@@ -1,7 +1,7 @@
 //! `freikugel info`: what a scene is made of.
 
 use super::{Failure, input, print};
-use freikugel::field::{Contract, Extent, Field, Metric, Structure, analyse, extent};
+use freikugel::field::{Contract, Extent, Field, Metric, ParamKind, Structure, analyse, extent};
 use freikugel::scene::Scene;
 use std::fmt::Write;
 use std::path::Path;
@@ -34,13 +34,16 @@ fn describe(scene: &Scene) -> String {
     }
     let shapes: Vec<Field> = scene.objects.iter().map(|object| object.shape.clone()).collect();
     let operations = Structure::compile(&shapes).map_or(0, |structure| structure.operations());
-    let _ = writeln!(
-        text,
-        "{} objects, {nodes} nodes, {primitives} primitives, {operations} operations, {} materials, {} lights",
-        scene.objects.len(),
-        scene.materials.len(),
-        scene.lights.len()
-    );
+    let sums = [
+        (scene.objects.len(), "object"),
+        (nodes, "node"),
+        (primitives, "primitive"),
+        (operations, "operation"),
+        (scene.materials.len(), "material"),
+        (scene.lights.len(), "light"),
+    ];
+    let sums: Vec<String> = sums.into_iter().map(|(number, noun)| count(number, noun)).collect();
+    let _ = writeln!(text, "{}", sums.join(", "));
     text
 }
 
@@ -49,8 +52,7 @@ fn tree(field: &Field, depth: usize, scene: &Scene, text: &mut String) {
     let about = &node.shape.about;
     let _ = write!(text, "{:indent$}{}", "", about.name, indent = 2 * depth);
     for (index, param) in about.params.iter().enumerate() {
-        let numbers: Vec<String> = node.argument(index).iter().map(|number| format!("{number}")).collect();
-        let _ = write!(text, " {}={}", param.name, numbers.join(","));
+        let _ = write!(text, " {}={}", param.name, written(param.kind, &node.argument(index)));
     }
     if let Some((name, _)) = node.material.and_then(|id| scene.materials.get(id.0 as usize)) {
         let _ = write!(text, " material={name:?}");
@@ -62,6 +64,23 @@ fn tree(field: &Field, depth: usize, scene: &Scene, text: &mut String) {
     for child in &node.children {
         tree(child, depth + 1, scene, text);
     }
+}
+
+/// An argument as a scene file has it.
+fn written(kind: ParamKind, numbers: &[f64]) -> String {
+    let one = |number: &f64| match kind {
+        ParamKind::Choice(names) => names[*number as usize].to_owned(),
+        ParamKind::Flag => (*number != 0.0).to_string(),
+        // Written in degrees, stored in radians: the last digits are the conversion's.
+        ParamKind::Angle | ParamKind::Angles => format!("{}", (number.to_degrees() * 1e9).round() / 1e9),
+        _ => number.to_string(),
+    };
+    numbers.iter().map(one).collect::<Vec<String>>().join(",")
+}
+
+/// A count with its noun.
+fn count(number: usize, noun: &str) -> String {
+    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 
 fn promise(contract: Contract) -> String {

@@ -1,0 +1,380 @@
+//! The built command, as a user meets it.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// A folder of its own for each test, removed at the end.
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a folder for the test"))
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: impl AsRef<[u8]>) -> PathBuf {
+        std::fs::write(self.path(name), text).expect("can write");
+        self.path(name)
+    }
+
+    /// Runs the command in this folder.
+    fn run(&self, args: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_freikugel"))
+            .args(args)
+            .current_dir(self.0.path())
+            .stdin(Stdio::null())
+            .output()
+            .expect("the command runs")
+    }
+
+    fn names(&self) -> Vec<String> {
+        let mut names: Vec<String> = std::fs::read_dir(self.0.path())
+            .expect("can list")
+            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("it exits")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).expect("text")
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).expect("text")
+}
+
+const BALL: &str = r#"{ "picture": { "width": 40, "height": 30, "samples": 2 }, "objects": [ { "shape": { "sphere": { "radius": 1 } } } ] }"#;
+
+#[test]
+fn renders_to_the_named_file_and_to_the_default_one() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL);
+    let output = folder.run(&["render", "ball.json"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stderr(&output).contains("ball.png: 40 x 30"), "{}", stderr(&output));
+    assert_eq!(stdout(&output), "");
+    let output = folder.run(&[
+        "render",
+        "ball.json",
+        "-o",
+        "other.EXR",
+        "--quiet",
+        "--stats",
+        "stats.json",
+    ]);
+    assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+    assert_eq!(folder.names(), ["ball.json", "ball.png", "other.EXR", "stats.json"]);
+    assert!(
+        std::fs::read(folder.path("ball.png"))
+            .expect("there")
+            .starts_with(b"\x89PNG")
+    );
+    assert!(
+        std::fs::read(folder.path("other.EXR"))
+            .expect("there")
+            .starts_with(&[0x76, 0x2f, 0x31, 0x01])
+    );
+    let stats: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.path("stats.json")).expect("there")).expect("JSON");
+    assert_eq!(stats["rays"]["camera"], 40 * 30 * 2);
+    assert_eq!(stats["unresolved"]["pixels"], 0);
+}
+
+#[test]
+fn the_same_bytes_for_any_threads_and_instruction_set() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL);
+    let picture = |args: &[&str]| {
+        let output = folder.run(&[&["render", "ball.json", "-o", "x.png"], args].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        std::fs::read(folder.path("x.png")).expect("there")
+    };
+    let first = picture(&["--threads", "1"]);
+    assert_eq!(first, picture(&["--threads", "3"]));
+    for level in freikugel::field::simd::available() {
+        assert_eq!(first, picture(&["--simd", freikugel::field::simd::name(level)]));
+    }
+    assert_ne!(first, picture(&["--quality", "draft"]));
+}
+
+#[test]
+fn a_broken_scene_gets_all_its_mistakes_and_code_1() {
+    let folder = Folder::new();
+    folder.write(
+        "broken.json",
+        r#"{
+  "objects": [
+    { "shape": { "sphere": { "radios": 1 } } },
+    { "shape": { "box": { "size": [1, -2, 3] } } },
+    { "shape": { "union": [] } }
+  ]
+}"#,
+    );
+    for command in ["check", "render", "info"] {
+        let output = folder.run(&[command, "broken.json"]);
+        assert_eq!(code(&output), 1);
+        let text = stderr(&output);
+        for part in [
+            "broken.json:3:",
+            "did you mean `radius`",
+            "broken.json:4:",
+            "broken.json:5:",
+            "has 3 errors",
+        ] {
+            assert!(text.contains(part), "{command} does not say {part:?}: {text}");
+        }
+        assert_eq!(folder.names(), ["broken.json"], "{command} leaves nothing behind");
+    }
+}
+
+#[test]
+fn impossible_inputs_get_a_message() {
+    let folder = Folder::new();
+    folder.write("binary.json", [0xff, 0xfe, 0x00, 0x80]);
+    folder.write("empty.json", "");
+    std::fs::create_dir(folder.path("folder")).expect("can make");
+    // A sparse file of 2 GB takes no room.
+    let huge = std::fs::File::create(folder.path("huge.json")).expect("can make");
+    huge.set_len(2 << 30).expect("sparse");
+    for (name, says) in [
+        ("missing.json", "No such file"),
+        ("binary.json", "not text"),
+        ("folder", "it is a folder"),
+        ("huge.json", "larger than 64 MiB"),
+        ("empty.json", "error"),
+    ] {
+        for command in ["check", "render", "info"] {
+            let mut args = vec![command, name];
+            if command == "render" {
+                args.extend(["-o", "x.png"]);
+            }
+            let output = folder.run(&args);
+            let text = stderr(&output);
+            assert_eq!(code(&output), 1, "{command} {name}: {text}");
+            assert!(
+                text.contains(says) && !text.contains("panicked"),
+                "{command} {name}: {text}"
+            );
+        }
+    }
+    assert!(!folder.path("x.png").exists());
+}
+
+#[test]
+fn impossible_outputs_get_a_message_before_any_work() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL.replace("40", "40000"));
+    std::fs::create_dir(folder.path("folder.png")).expect("can make");
+    for (path, says) in [
+        ("folder.png", "it is a folder"),
+        ("no/such/x.png", "there is no folder"),
+    ] {
+        let output = folder.run(&["render", "ball.json", "-o", path, "--height", "1000"]);
+        assert_eq!(code(&output), 1);
+        assert!(stderr(&output).contains(says), "{}", stderr(&output));
+    }
+    assert_eq!(folder.names(), ["ball.json", "folder.png"]);
+}
+
+#[test]
+fn off_words_get_code_2() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL);
+    for args in [
+        &["render", "ball.json", "--wdith", "3"][..],
+        &["render", "ball.json", "--width", "0"],
+        &["render", "ball.json", "--width", "wide"],
+        &["render", "ball.json", "-o", "x.bmp"],
+        &["render", "ball.json", "--crop", "1,2,3"],
+        &["render", "ball.json", "--crop", "30,0,20,20"],
+        &["render", "ball.json", "--threads", "0"],
+        &["render", "ball.json", "--simd", "mmx"],
+        &["render", "ball.json", "--samples", "4", "--quality", "fine"],
+        &["render"],
+        &["rendre", "ball.json"],
+        &["help", "shapes", "sphreoid"],
+        &["help", "nothing"],
+        &["check"],
+        &[],
+    ] {
+        let output = folder.run(args);
+        assert_eq!(code(&output), 2, "{args:?}: {}", stderr(&output));
+        assert!(
+            !stderr(&output).is_empty() && !stderr(&output).contains("panicked"),
+            "{args:?}"
+        );
+    }
+    assert_eq!(folder.names(), ["ball.json"]);
+}
+
+#[test]
+fn a_crop_is_a_cut_of_the_whole() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL);
+    let image = |args: &[&str]| {
+        let output = folder.run(&[&["render", "ball.json", "-o", "x.png"], args].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let file = std::fs::File::open(folder.path("x.png")).expect("there");
+        let mut reader = png::Decoder::new(std::io::BufReader::new(file))
+            .read_info()
+            .expect("a picture");
+        let mut pixels = vec![0; reader.output_buffer_size().expect("fits")];
+        let info = reader.next_frame(&mut pixels).expect("a frame");
+        (info.width as usize, pixels)
+    };
+    let (whole_width, whole) = image(&[]);
+    let (width, cut) = image(&["--crop", "7,5,20,11"]);
+    assert_eq!(width, 20);
+    for y in 0..11 {
+        let start = 3 * ((y + 5) * whole_width + 7);
+        assert_eq!(cut[3 * 20 * y..3 * 20 * (y + 1)], whole[start..start + 60], "row {y}");
+    }
+}
+
+#[test]
+fn info_schema_and_help_say_what_there_is() {
+    let folder = Folder::new();
+    folder.write(
+        "cup.json",
+        r##"{ "materials": { "clay": { "color": "#c8825a" } }, "objects": [ { "name": "cup", "material": "clay", "shape":
+            { "difference": [ { "cylinder": { "radius": 1, "height": 2 } }, { "sphere": { "radius": 0.5 } } ] } } ] }"##,
+    );
+    let text = stdout(&folder.run(&["info", "cup.json"]));
+    for part in [
+        r#"object "cup", material "clay", box (-1.0000, -1.0000, -1.0000) to (1.0000, 1.0000, 1.0000)"#,
+        "difference keep_material=false  [bound outside, exact inside]",
+        "cylinder radius=1 height=2 round=0 axis=z  [exact]",
+        "1 object, 3 nodes, 2 primitives, 3 operations, 1 material, 3 lights",
+    ] {
+        assert!(text.contains(part), "no {part:?} in {text}");
+    }
+    let schema: serde_json::Value = serde_json::from_str(&stdout(&folder.run(&["schema"]))).expect("JSON");
+    assert!(schema.is_object());
+    let shapes = stdout(&folder.run(&["help", "shapes"]));
+    for shape in freikugel::field::shapes::ALL {
+        assert!(shapes.contains(shape.about.name), "{shapes}");
+        let text = stdout(&folder.run(&["help", "shapes", shape.about.name]));
+        assert!(
+            text.contains(shape.about.summary) && text.contains(shape.about.example),
+            "{text}"
+        );
+    }
+    for args in [&["help"][..], &["help", "render"], &["--help"], &["render", "--help"]] {
+        let output = folder.run(args);
+        assert_eq!(code(&output), 0);
+        assert!(stdout(&output).contains("Examples:"), "{args:?}");
+    }
+}
+
+#[test]
+fn every_example_of_a_shape_is_a_sound_scene() {
+    let folder = Folder::new();
+    for shape in freikugel::field::shapes::ALL {
+        let scene = format!(
+            r#"{{ "materials": {{ "clay": {{}} }}, "objects": [ {{ "shape": {} }} ] }}"#,
+            shape.about.example
+        );
+        folder.write("example.json", scene);
+        let output = folder.run(&["check", "example.json"]);
+        assert_eq!(
+            (code(&output), stderr(&output).as_str()),
+            (0, ""),
+            "{}",
+            shape.about.name
+        );
+    }
+}
+
+#[test]
+fn every_scene_that_comes_along_is_sound_and_shows_something() {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let folder = Folder::new();
+    let mut count = 0;
+    let mut folders = vec![scenes];
+    while let Some(next) = folders.pop() {
+        for entry in std::fs::read_dir(&next).expect("the scenes are there") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let name = path.display().to_string();
+            let size = ["--width", "32", "--height", "24", "--samples", "1"];
+            let output = folder.run(&[&["render", &name, "-o", "x.png", "--stats", "stats.json"], &size[..]].concat());
+            assert_eq!(code(&output), 0, "{name}: {}", stderr(&output));
+            assert!(!stderr(&output).contains("error"), "{name}: {}", stderr(&output));
+            let stats: serde_json::Value =
+                serde_json::from_slice(&std::fs::read(folder.path("stats.json")).expect("there")).expect("JSON");
+            assert!(
+                stats["hits"].as_u64().expect("a count") > 32 * 24 / 10,
+                "{name}: {stats}"
+            );
+            count += 1;
+        }
+    }
+    assert!(count > 30, "only {count} scenes");
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_no_partial_file() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_freikugel"))
+        .args([
+            "render",
+            "ball.json",
+            "--width",
+            "4000",
+            "--height",
+            "4000",
+            "--samples",
+            "4000",
+        ])
+        .current_dir(folder.0.path())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    // Long enough for the unfinished file to be there, far too short for the picture.
+    let deadline = std::time::Instant::now() + std::time::Duration::from_secs(30);
+    while folder.names().len() == 1 && std::time::Instant::now() < deadline {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert_eq!(folder.names().len(), 2, "the file that will be the picture");
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .expect("kill runs");
+    assert!(kill.success());
+    let status = child.wait().expect("it ends");
+    assert_eq!(status.code(), Some(130));
+    assert_eq!(folder.names(), ["ball.json"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_and_devices_are_written_through() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL);
+    folder.write("real.png", "old");
+    std::os::unix::fs::symlink(folder.path("real.png"), folder.path("link.png")).expect("can link");
+    assert_eq!(code(&folder.run(&["render", "ball.json", "-o", "link.png"])), 0);
+    assert!(folder.path("link.png").is_symlink());
+    assert!(
+        std::fs::read(folder.path("real.png"))
+            .expect("there")
+            .starts_with(b"\x89PNG")
+    );
+    std::os::unix::fs::symlink("/dev/null", folder.path("null.png")).expect("can link");
+    assert_eq!(code(&folder.run(&["render", "ball.json", "-o", "null.png"])), 0);
+    assert!(!Path::new("/dev/null").is_file());
+}
