@@ -101,7 +101,7 @@ fn gradients_agree_with_differences() {
             assert!(exact.is_finite(), "{name} {seed} at {p}: {exact}");
             let at = |axis: usize, step: f64| program.value(p + DVec3::AXES[axis] * step);
             let differences = DVec3::from_array([0, 1, 2].map(|a| (at(a, STEP) - at(a, -STEP)) / (2.0 * STEP)));
-            let bends = (0..3).any(|a| (at(a, STEP) + at(a, -STEP) - 2.0 * value).abs() > 1e3 * STEP * STEP);
+            let bends = (0..3).any(|a| (at(a, STEP) + at(a, -STEP) - 2.0 * value).abs() > 0.5e-4 * STEP);
             if bends {
                 continue;
             }
@@ -219,7 +219,12 @@ fn programs_agree_with_set_logic_on_random_trees() {
             if let Some(inside) = common::contains(&field, p)
                 && value.abs() > 1e-5
             {
-                assert_eq!(inside, value < 0.0, "seed {seed} at {p}: {value} in {field:#?}");
+                assert_eq!(
+                    inside,
+                    value < 0.0,
+                    "seed {seed} at {p}: {value} in {}",
+                    common::notation(&field)
+                );
             }
         }
     }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Random, contains, every_shape, tree};
+use common::{Random, contains, every_shape, notation, tree};
 use freikugel_field::{Extent, Field, Metric, Program, Structure, analyse, extent};
 use glam::DVec3;
 
@@ -102,7 +102,11 @@ fn the_ball_of_the_bound_is_empty_and_that_of_an_exact_distance_touches() {
                         let near = p - gradient * value + random.direction() * margin;
                         contains(&field, near) == Some(!here)
                     });
-                assert!(touches, "{name}: nothing at distance {value} of {p} from {field:#?}");
+                assert!(
+                    touches,
+                    "{name}: nothing at distance {value} of {p} from {}",
+                    notation(&field)
+                );
             }
         }
     }
@@ -230,7 +234,7 @@ fn the_extent_of_primitives_under_maps_is_tight() {
                 while step > 1e-4 {
                     let Some(b) = best else { break };
                     let mut p = b + DVec3::AXES[axis] * sign * step + random.direction() * step * 0.5;
-                    for _ in 0..30 {
+                    for _ in 0..60 {
                         let (value, gradient) = program.gradient(p);
                         if value < 0.0 {
                             break;
@@ -240,15 +244,16 @@ fn the_extent_of_primitives_under_maps_is_tight() {
                     if program.value(p) < 0.0 && score(p) > score(b) {
                         best = Some(p);
                     } else {
-                        step *= 0.97;
+                        step *= 0.985;
                     }
                 }
                 let best = best.unwrap_or_else(|| panic!("{name} {seed} is empty"));
                 let face = if sign > 0.0 { aabb.max[axis] } else { aabb.min[axis] };
                 assert!(
                     (face - best[axis]).abs() < 0.01 * aabb.size()[axis],
-                    "{name} {seed}, axis {axis}: {face} for {}",
-                    best[axis]
+                    "{name} {seed}, axis {axis}: {face} for {} of {}",
+                    best[axis],
+                    notation(&field)
                 );
             }
         }

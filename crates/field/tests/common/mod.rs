@@ -55,7 +55,7 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
         ParamKind::Length => push(if random.unit() < 0.3 {
             0.0
         } else {
-            random.range(0.0, 0.4)
+            random.range(0.1, 0.4)
         }),
         ParamKind::Positive => push(random.range(0.2, 1.2)),
         ParamKind::Factor => push(sign * random.range(0.5, 2.0)),
@@ -109,6 +109,13 @@ pub(crate) fn tree(depth: u32, random: &mut Random) -> Field {
     let choices: Vec<_> = shapes::ALL.iter().filter(fits).collect();
     let shape = choices[random.below(choices.len())];
     call(shape, depth.saturating_sub(1), random)
+}
+
+/// A field on one line.
+pub(crate) fn notation(field: &Field) -> String {
+    let node = field.node();
+    let children: Vec<String> = node.children.iter().map(notation).collect();
+    format!("{}{:?}({})", node.shape.about.name, node.numbers(), children.join(", "))
 }
 
 /// Fields that exercise every shape: several random calls of each, over primitives.
