@@ -69,11 +69,8 @@ pub(crate) fn shape() -> Result {
     // Same target folder: dependencies are built already.
     let target = from.join("target");
     let target = target.to_str().ok_or("the path of the target folder is no text")?;
-    std::fs::write(
-        scratch.join(".cargo/config.toml"),
-        format!("[build]\ntarget-dir = {target:?}\n"),
-    )
-    .map_err(|e| e.to_string())?;
+    std::fs::write(scratch.join(".cargo/config.toml"), format!("[build]\ntarget-dir = {target:?}\n"))
+        .map_err(|e| e.to_string())?;
     schema(&scratch)?;
 
     let mut changed: Vec<String> = output(&scratch, "git", &["status", "--porcelain", "--untracked-files=all"])?
@@ -84,76 +81,24 @@ pub(crate) fn shape() -> Result {
     changed.sort();
     let expected = ["crates/field/src/shapes.rs", file.as_str(), SCHEMA];
     if changed != expected {
-        return Err(format!(
-            "a new shape should change {expected:?}, but it changed {changed:?}"
-        ));
+        return Err(format!("a new shape should change {expected:?}, but it changed {changed:?}"));
     }
     let schema = std::fs::read_to_string(scratch.join(SCHEMA)).map_err(|e| e.to_string())?;
-    expect(
-        "the schema",
-        &schema,
-        &[
-            NAME,
-            "An octahedron for probing.",
-            "Distance from the centre to a corner.",
-        ],
-    )?;
+    expect("the schema", &schema, &[NAME, "An octahedron for probing.", "Distance from the centre to a corner."])?;
 
     let command = ["run", "--quiet", "-p", "freikugel", "--"];
     let with = |args: &[&str]| output(&scratch, "cargo", &[&command[..], args].concat());
     let documentation = with(&["help", "shapes", NAME])?;
-    expect(
-        "the documentation",
-        &documentation,
-        &["An octahedron for probing.", "radius"],
-    )?;
+    expect("the documentation", &documentation, &["An octahedron for probing.", "radius"])?;
     let scene = scratch.join("target-probe.json");
-    std::fs::write(
-        &scene,
-        format!(r#"{{ "objects": [ {{ "shape": {{ "{NAME}": {{ "radius": 1 }} }} }} ] }}"#),
-    )
-    .map_err(|e| e.to_string())?;
+    std::fs::write(&scene, format!(r#"{{ "objects": [ {{ "shape": {{ "{NAME}": {{ "radius": 1 }} }} }} ] }}"#))
+        .map_err(|e| e.to_string())?;
     let scene = scene.to_str().ok_or("the path of the scratch folder is no text")?;
     expect("info", &with(&["info", scene])?, &[NAME])?;
-    with(&[
-        "render",
-        scene,
-        "--width",
-        "16",
-        "--height",
-        "16",
-        "--samples",
-        "1",
-        "-o",
-        "target-probe.png",
-    ])?;
+    with(&["render", scene, "--width", "16", "--height", "16", "--samples", "1", "-o", "target-probe.png"])?;
     // Every number type, and valid shader text.
-    run(
-        &scratch,
-        "cargo",
-        &[
-            "test",
-            "--quiet",
-            "-p",
-            "freikugel-field",
-            "--test",
-            "conformance",
-            "agree",
-        ],
-    )?;
-    run(
-        &scratch,
-        "cargo",
-        &[
-            "test",
-            "--quiet",
-            "-p",
-            "freikugel-field",
-            "--test",
-            "conformance",
-            "shaders",
-        ],
-    )
+    run(&scratch, "cargo", &["test", "--quiet", "-p", "freikugel-field", "--test", "conformance", "agree"])?;
+    run(&scratch, "cargo", &["test", "--quiet", "-p", "freikugel-field", "--test", "conformance", "shaders"])
 }
 
 fn expect(what: &str, text: &str, words: &[&str]) -> Result {

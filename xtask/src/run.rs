@@ -26,11 +26,7 @@ pub(crate) fn run_with(folder: &Path, program: &str, args: &[&str], variables: &
         .current_dir(folder)
         .status()
         .map_err(|e| format!("can't run {program}: {e}"))?;
-    if status.success() {
-        Ok(())
-    } else {
-        Err(format!("{program} {} failed ({status})", args.join(" ")))
-    }
+    if status.success() { Ok(()) } else { Err(format!("{program} {} failed ({status})", args.join(" "))) }
 }
 
 /// What a program prints.
@@ -43,11 +39,7 @@ pub(crate) fn output(folder: &Path, program: &str, args: &[&str]) -> Result<Stri
         .map_err(|e| format!("can't run {program}: {e}"))?;
     if !output.status.success() {
         let errors = String::from_utf8_lossy(&output.stderr);
-        return Err(format!(
-            "{program} {} failed ({})\n{errors}",
-            args.join(" "),
-            output.status
-        ));
+        return Err(format!("{program} {} failed ({})\n{errors}", args.join(" "), output.status));
     }
     String::from_utf8(output.stdout).map_err(|e| format!("{program} printed no text: {e}"))
 }
@@ -68,18 +60,11 @@ pub(crate) fn gallery(root: &Path) -> Result {
     run(root, "cargo", &["build", "--release", "-p", "freikugel"])?;
     let program = root.join("target/release/freikugel");
     for scene in scenes(&root.join("scenes"))? {
-        let below = scene
-            .strip_prefix(root.join("scenes"))
-            .expect("found below it")
-            .with_extension("png");
+        let below = scene.strip_prefix(root.join("scenes")).expect("found below it").with_extension("png");
         let picture = root.join("gallery").join(below);
         std::fs::create_dir_all(picture.parent().expect("a file in a folder")).map_err(|e| e.to_string())?;
         let (scene, picture) = (scene.display().to_string(), picture.display().to_string());
-        run(
-            root,
-            &program.display().to_string(),
-            &["render", &scene, "-o", &picture],
-        )?;
+        run(root, &program.display().to_string(), &["render", &scene, "-o", &picture])?;
     }
     Ok(())
 }

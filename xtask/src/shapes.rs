@@ -25,11 +25,7 @@ pub(crate) fn write(root: &Path) -> Result {
 pub(crate) fn check() -> Result {
     let root = root();
     let present = std::fs::read_to_string(root.join(LIST)).map_err(|e| format!("can't read {LIST}: {e}"))?;
-    if present == list(&root)? {
-        Ok(())
-    } else {
-        Err(format!("{LIST} is out of date; run `cargo xtask shapes`"))
-    }
+    if present == list(&root)? { Ok(()) } else { Err(format!("{LIST} is out of date; run `cargo xtask shapes`")) }
 }
 
 fn list(root: &Path) -> Result<String> {
@@ -43,11 +39,7 @@ fn list(root: &Path) -> Result<String> {
         };
         let text = std::fs::read_to_string(&path).map_err(|e| format!("can't read {}: {e}", path.display()))?;
         // A reserved word can still name a module.
-        let module = if name == "box" {
-            "r#box".to_owned()
-        } else {
-            name.to_owned()
-        };
+        let module = if name == "box" { "r#box".to_owned() } else { name.to_owned() };
         files.push((module, descriptors(&text)));
     }
     files.sort();

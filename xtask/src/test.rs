@@ -11,65 +11,32 @@ pub(crate) fn all() -> Result {
     install_components()?;
     run(&root, "cargo", &["fmt", "--all", "--check"])?;
     shapes::check()?;
-    run(
-        &root,
-        "cargo",
-        &[
-            "clippy",
-            "--workspace",
-            "--all-targets",
-            "--locked",
-            "--",
-            "-D",
-            "warnings",
-        ],
-    )?;
+    run(&root, "cargo", &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])?;
     run(&root, "cargo", &["test", "--workspace", "--locked"])?;
     schema_is_fresh()?;
     run_with(
         &root,
         "cargo",
-        &[
-            "doc",
-            "--workspace",
-            "--no-deps",
-            "--locked",
-            "--document-private-items",
-        ],
+        &["doc", "--workspace", "--no-deps", "--locked", "--document-private-items"],
         &warnings_are_errors,
     )?;
     probe::shape()?;
     install_deny()?;
-    run(
-        &root,
-        "cargo",
-        &["deny", "--log-level", "error", "check", "licenses", "bans", "sources"],
-    )?;
+    run(&root, "cargo", &["deny", "--log-level", "error", "check", "licenses", "bans", "sources"])?;
     eprintln!("xtask: all checks passed");
     Ok(())
 }
 
 fn schema_is_fresh() -> Result {
     let root = root();
-    let fresh = output(
-        &root,
-        "cargo",
-        &["run", "--quiet", "--locked", "-p", "freikugel", "--", "schema"],
-    )?;
+    let fresh = output(&root, "cargo", &["run", "--quiet", "--locked", "-p", "freikugel", "--", "schema"])?;
     let present = std::fs::read_to_string(root.join(SCHEMA)).map_err(|e| format!("can't read {SCHEMA}: {e}"))?;
-    if fresh == present {
-        Ok(())
-    } else {
-        Err(format!("{SCHEMA} is out of date; run `cargo xtask schema`"))
-    }
+    if fresh == present { Ok(()) } else { Err(format!("{SCHEMA} is out of date; run `cargo xtask schema`")) }
 }
 
 /// Whether a cargo subcommand is there.
 fn has(subcommand: &str) -> bool {
-    Command::new("cargo")
-        .args([subcommand, "--version"])
-        .output()
-        .is_ok_and(|output| output.status.success())
+    Command::new("cargo").args([subcommand, "--version"]).output().is_ok_and(|output| output.status.success())
 }
 
 /// Formatting and lints come with the toolchain, but not with its smallest installation.

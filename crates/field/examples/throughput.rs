@@ -11,10 +11,7 @@ fn csg20() -> Field {
     let body = smooth_union(0.1, [body, torus(0.35, 0.08).at([0.0, 0.0, 0.3])]);
     let body = smooth_union(0.08, [body, sphere(0.2).at([0.55, 0.0, 0.2])]);
     let body = smooth_union(0.08, [body, sphere(0.2).at([-0.55, 0.0, 0.2])]);
-    let body = body
-        - cuboid([0.16, 0.4, 1.0])
-            .at([0.0, 0.5, 0.1])
-            .rotate([0.0, 0.0, 1.0], 40.0);
+    let body = body - cuboid([0.16, 0.4, 1.0]).at([0.0, 0.5, 0.1]).rotate([0.0, 0.0, 1.0], 40.0);
     let body = body | cylinder(0.1, 1.0);
     let body = smooth_union(0.05, [body, sphere(0.14).at([0.0, 0.0, 0.55])]);
     body | cuboid([1.4, 1.4, 0.14]).round(0.02).at([0.0, 0.0, -0.45])
@@ -70,12 +67,7 @@ fn main() {
         let structure = Structure::compile(&[field]).expect("sound fields");
         let program = structure.program(glam::DVec3::ZERO);
         println!("{name}: {} operations", structure.operations());
-        measure(
-            name,
-            &program,
-            &mut |evaluator| evaluator.values(points, &mut values),
-            POINTS,
-        );
+        measure(name, &program, &mut |evaluator| evaluator.values(points, &mut values), POINTS);
         let [gx, gy, gz] = &mut gradient;
         let mut gradients = |evaluator: &mut Evaluator<'_>| {
             evaluator.gradients(points, &mut values, [gx, gy, gz]);

@@ -30,17 +30,8 @@ pub struct Analysis {
 pub fn analyse(field: &Field) -> (Option<Analysis>, Vec<Diagnostic>) {
     let mut walk = Walk::default();
     if field.depth() > MAX_DEPTH {
-        let message = format!(
-            "shapes are nested {} deep; at most {MAX_DEPTH} are possible",
-            field.depth()
-        );
-        walk.report(
-            field.node(),
-            Severity::Error,
-            None,
-            message,
-            Some("join unions into one".into()),
-        );
+        let message = format!("shapes are nested {} deep; at most {MAX_DEPTH} are possible", field.depth());
+        walk.report(field.node(), Severity::Error, None, message, Some("join unions into one".into()));
         return (None, walk.diagnostics);
     }
     let contract = walk.visit(field);
@@ -62,13 +53,7 @@ struct Walk {
 
 impl Walk {
     fn report(&mut self, node: &Node, severity: Severity, param: Option<usize>, message: String, hint: Option<String>) {
-        self.diagnostics.push(Diagnostic {
-            severity,
-            message,
-            hint,
-            origin: node.origin,
-            param,
-        });
+        self.diagnostics.push(Diagnostic { severity, message, hint, origin: node.origin, param });
     }
 
     fn error(&mut self, node: &Node, param: Option<usize>, message: String) -> Option<Contract> {
@@ -124,11 +109,7 @@ impl Walk {
             }
             Kind::Place(table) => {
                 let child = children[0]?;
-                Some(if (table.is_similarity)(&args) {
-                    child
-                } else {
-                    child.at_most_bound()
-                })
+                Some(if (table.is_similarity)(&args) { child } else { child.at_most_bound() })
             }
             Kind::Modify(table) => {
                 let child = children[0]?;
@@ -150,18 +131,11 @@ impl Walk {
         let mut sound = true;
         for (index, param) in about.params.iter().enumerate() {
             let width = param.kind.width();
-            let end = if param.kind.is_list() {
-                node.args.len()
-            } else {
-                start + width
-            };
+            let end = if param.kind.is_list() { node.args.len() } else { start + width };
             let is_there = end <= node.args.len() && end > start && (end - start).is_multiple_of(width);
             let fault = if is_there {
                 let numbers: Vec<f64> = node.args[start..end].iter().map(|value| value.number()).collect();
-                param
-                    .kind
-                    .fault(&numbers)
-                    .map(|fault| format!("`{}` of `{}` {fault}", param.name, about.name))
+                param.kind.fault(&numbers).map(|fault| format!("`{}` of `{}` {fault}", param.name, about.name))
             } else {
                 Some(format!("`{}` needs `{}`", about.name, param.name))
             };

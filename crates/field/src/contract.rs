@@ -26,43 +26,22 @@ pub struct Contract {
 
 impl Contract {
     /// An exact signed distance.
-    pub const EXACT: Self = Self {
-        outside: Metric::Exact,
-        inside: Metric::Exact,
-        signed: true,
-        lipschitz: Some(1.0),
-    };
+    pub const EXACT: Self = Self { outside: Metric::Exact, inside: Metric::Exact, signed: true, lipschitz: Some(1.0) };
 
     /// A signed bound with slope at most 1.
-    pub const BOUND: Self = Self {
-        outside: Metric::Bound,
-        inside: Metric::Bound,
-        signed: true,
-        lipschitz: Some(1.0),
-    };
+    pub const BOUND: Self = Self { outside: Metric::Bound, inside: Metric::Bound, signed: true, lipschitz: Some(1.0) };
 
     /// An exact distance to something without inside.
-    pub const SHEET: Self = Self {
-        signed: false,
-        ..Self::EXACT
-    };
+    pub const SHEET: Self = Self { signed: false, ..Self::EXACT };
 
     /// At best a bound on either side.
     pub fn at_most_bound(self) -> Self {
-        Self {
-            outside: self.outside.max(Metric::Bound),
-            inside: self.inside.max(Metric::Bound),
-            ..self
-        }
+        Self { outside: self.outside.max(Metric::Bound), inside: self.inside.max(Metric::Bound), ..self }
     }
 
     /// The contract of the field with its sign turned, for a field that has one.
     pub fn complement(self) -> Self {
-        Self {
-            outside: self.inside,
-            inside: self.outside,
-            ..self
-        }
+        Self { outside: self.inside, inside: self.outside, ..self }
     }
 
     /// On each side the weaker of both promises, and signed only if both are.
@@ -119,9 +98,6 @@ impl Aabb {
 
     /// The smallest box that holds both.
     pub fn hull(self, other: Self) -> Self {
-        Self {
-            min: self.min.min(other.min),
-            max: self.max.max(other.max),
-        }
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 }

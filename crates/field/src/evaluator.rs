@@ -3,10 +3,10 @@
 //! Points are taken in batches of [`BATCH`]; for each batch the operations of the program run one after another, each as
 //! one kernel call over the whole batch. An evaluator is the scratch memory of one thread.
 
-use crate::compile::{Op, Registers};
 use crate::kernel::{
     AffineJob, BATCH, Block, CombineJob, ModifyJob, PrimitiveJob, WIDEST, affine_gradients, affine_values,
 };
+use crate::operation::{Op, Registers};
 use crate::program::Program;
 use crate::simd::{self, Level};
 use std::ops::Range;
@@ -26,19 +26,12 @@ impl<'a> Points<'a> {
     /// # Panics
     /// If the coordinates differ in number.
     pub fn count(&self) -> usize {
-        assert!(
-            self.x.len() == self.y.len() && self.x.len() == self.z.len(),
-            "coordinates differ in number"
-        );
+        assert!(self.x.len() == self.y.len() && self.x.len() == self.z.len(), "coordinates differ in number");
         self.x.len()
     }
 
     fn slice(&self, range: Range<usize>) -> Points<'a> {
-        Points {
-            x: &self.x[range.clone()],
-            y: &self.y[range.clone()],
-            z: &self.z[range],
-        }
+        Points { x: &self.x[range.clone()], y: &self.y[range.clone()], z: &self.z[range] }
     }
 }
 
@@ -139,23 +132,18 @@ impl<'p> Evaluator<'p> {
         out.shares.resize(out.count * code.regions.len(), 0.0);
         self.kept.resize(code.share_registers);
         self.weights.resize(code.share_registers.values, Block::default());
+        let mut share = Block::default();
         for batch in batches(out.count) {
             let count = self.kept.load(points.slice(batch.clone()));
             run(self.program, &code.share_ops, self.level, &mut self.kept, count);
             self.weights[code.share_registers.result].0.fill(1.0);
             for op in code.share_ops.iter().rev() {
                 match op {
-                    Op::Combine {
-                        table,
-                        a,
-                        b,
-                        out,
-                        constants,
-                    } => {
-                        let mut share = self.kept.values[*a].clone();
+                    Op::Combine { table, a, b, out, constants } => {
                         (table.kernels.shares)(
                             self.level,
                             &mut CombineJob {
+                                a: &self.kept.values[*a..=*a],
                                 b: &self.kept.values[*b..=*b],
                                 constants: &self.program.single[constants.clone()],
                                 out: std::slice::from_mut(&mut share),
@@ -175,7 +163,11 @@ impl<'p> Evaluator<'p> {
                             *to += weight;
                         }
                     }
-                    Op::Affine { .. } | Op::Modify { .. } | Op::Scale { .. } => {}
+                    Op::Modify { from, out, .. } | Op::Scale { from, out, .. } => {
+                        let weight = self.weights[*out].clone();
+                        self.weights[*from] = weight;
+                    }
+                    Op::Affine { .. } => {}
                 }
             }
         }
@@ -207,9 +199,7 @@ impl<const C: usize> Bank<C> {
 
 /// Consecutive ranges of at most a batch.
 fn batches(count: usize) -> impl Iterator<Item = Range<usize>> {
-    (0..count)
-        .step_by(BATCH)
-        .map(move |start| start..(start + BATCH).min(count))
+    (0..count).step_by(BATCH).map(move |start| start..(start + BATCH).min(count))
 }
 
 /// Runs the operations over the `count` points in point register 0.
@@ -222,103 +212,59 @@ fn run<const C: usize>(program: &Program, ops: &[Op], level: Level, bank: &mut B
                 let [from, to] = bank
                     .points
                     .get_disjoint_mut([from * size..(from + 1) * size, to * size..(to + 1) * size])
-                    .expect("a map never writes to the register it reads");
-                let mut job = AffineJob {
-                    from,
-                    constants: constants_of(constants),
-                    to,
-                    count,
-                };
+                    .expect(NOT_IN_PLACE);
+                let mut job = AffineJob { from, constants: constants_of(constants), to, count };
                 if C == 1 {
                     affine_values(level, &mut job);
                 } else {
                     affine_gradients(level, &mut job);
                 }
             }
-            Op::Primitive {
-                table,
-                point,
-                at,
-                constants,
-                fold,
-                out,
-                ..
-            } => {
-                let kernel = if C == 1 {
-                    table.kernels.values
-                } else {
-                    table.kernels.gradients
-                };
-                let mut job = PrimitiveJob {
-                    points: &bank.points[point * 3 * C..(point + 1) * 3 * C],
-                    at: constants_of(at),
-                    constants: constants_of(constants),
-                    fold: *fold,
-                    out: &mut bank.values[out * C..(out + 1) * C],
-                    count,
-                };
-                kernel(level, &mut job);
-            }
-            Op::Combine {
-                table,
-                a,
-                b,
-                out,
-                constants,
-            } => {
-                if a != out {
-                    for component in 0..C {
-                        let copy = bank.values[a * C + component].clone();
-                        bank.values[out * C + component] = copy;
+            Op::Primitive { table, point, at, constants, before, out, .. } => {
+                let kernel = if C == 1 { table.kernels.values } else { table.kernels.gradients };
+                let points = &bank.points[point * 3 * C..(point + 1) * 3 * C];
+                let (before, out) = match before {
+                    None => (None, number::<C>(&mut bank.values, *out)),
+                    Some(before) => {
+                        let [before, out] = numbers::<C, 2>(&mut bank.values, [*before, *out]);
+                        (Some(&*before), out)
                     }
-                }
-                let kernel = if C == 1 {
-                    table.kernels.values
-                } else {
-                    table.kernels.gradients
                 };
-                let [b, out] = bank
-                    .values
-                    .get_disjoint_mut([b * C..(b + 1) * C, out * C..(out + 1) * C])
-                    .expect("operands lie in different registers");
-                kernel(
-                    level,
-                    &mut CombineJob {
-                        b,
-                        constants: constants_of(constants),
-                        out,
-                        count,
-                    },
-                );
+                let (at, constants) = (constants_of(at), constants_of(constants));
+                kernel(level, &mut PrimitiveJob { points, at, constants, before, out, count });
             }
-            Op::Modify {
-                table,
-                value,
-                constants,
-            } => {
-                let kernel = if C == 1 {
-                    table.kernels.values
-                } else {
-                    table.kernels.gradients
-                };
-                let out = &mut bank.values[value * C..(value + 1) * C];
-                kernel(
-                    level,
-                    &mut ModifyJob {
-                        constants: constants_of(constants),
-                        out,
-                        count,
-                    },
-                );
+            Op::Combine { table, a, b, out, constants } => {
+                let kernel = if C == 1 { table.kernels.values } else { table.kernels.gradients };
+                let [a, b, out] = numbers::<C, 3>(&mut bank.values, [*a, *b, *out]);
+                kernel(level, &mut CombineJob { a, b, constants: constants_of(constants), out, count });
             }
-            Op::Scale { value, factor } => {
+            Op::Modify { table, from, out, constants } => {
+                let kernel = if C == 1 { table.kernels.values } else { table.kernels.gradients };
+                let [from, out] = numbers::<C, 2>(&mut bank.values, [*from, *out]);
+                kernel(level, &mut ModifyJob { from, constants: constants_of(constants), out, count });
+            }
+            Op::Scale { from, out, factor } => {
                 let factor = program.single[*factor];
-                for block in &mut bank.values[value * C..(value + 1) * C] {
-                    for number in &mut block.0[..count] {
-                        *number *= factor;
+                let [from, out] = numbers::<C, 2>(&mut bank.values, [*from, *out]);
+                for (from, out) in from.iter().zip(out) {
+                    for (from, out) in from.0[..count].iter().zip(&mut out.0) {
+                        *out = from * factor;
                     }
                 }
             }
         }
     }
 }
+
+/// Register `index` of numbers with `C` components.
+fn number<const C: usize>(values: &mut [Block], index: usize) -> &mut [Block] {
+    &mut values[index * C..(index + 1) * C]
+}
+
+/// Several registers of numbers with `C` components.
+fn numbers<const C: usize, const N: usize>(values: &mut [Block], indices: [usize; N]) -> [&mut [Block]; N] {
+    values.get_disjoint_mut(indices.map(|index| index * C..(index + 1) * C)).expect(NOT_IN_PLACE)
+}
+
+/// Why registers can be borrowed apart.
+const NOT_IN_PLACE: &str = "no operation writes to a register it reads";

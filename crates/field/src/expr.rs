@@ -128,10 +128,7 @@ impl Graph {
         };
         for term in terms.iter() {
             let deepest = |ids: &[u32], owners: &[Option<u32>], parents: &[Option<u32>]| {
-                ids.iter()
-                    .map(|&id| owners[id as usize])
-                    .max_by_key(|&owner| depth(owner, parents))
-                    .flatten()
+                ids.iter().map(|&id| owners[id as usize]).max_by_key(|&owner| depth(owner, parents)).flatten()
             };
             let owner = match *term {
                 Term::Input(_) | Term::Slot(_) | Term::Literal(_) => None,
@@ -155,13 +152,7 @@ impl Graph {
     /// If `result` is a condition.
     pub fn evaluate(&self, result: Expr<'_>, point: [f64; 3], slots: &[f64]) -> f64 {
         let (terms, loops, owners) = (self.terms.borrow(), self.loops.borrow(), self.owners());
-        let run = Run {
-            terms: &terms,
-            loops: &loops,
-            owners: &owners,
-            point,
-            slots,
-        };
+        let run = Run { terms: &terms, loops: &loops, owners: &owners, point, slots };
         let mut values = vec![f64::NAN; terms.len()];
         let mut finished = vec![Vec::new(); loops.len()];
         run.block(None, &mut values, &mut finished);
@@ -404,12 +395,7 @@ impl<'g> Scalar for Expr<'g> {
         let start: Vec<u32> = state.iter().map(|s| s.id).collect();
         let this = {
             let mut loops = graph.loops.borrow_mut();
-            loops.push(Loop {
-                limit,
-                start,
-                next: Vec::new(),
-                go_on: 0,
-            });
+            loops.push(Loop { limit, start, next: Vec::new(), go_on: 0 });
             (loops.len() - 1) as u32
         };
         let mut place = 0;

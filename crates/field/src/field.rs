@@ -117,26 +117,13 @@ impl Field {
         let mut place = 0;
         for param in shape.about.params {
             if place >= args.len() {
-                args.extend(
-                    param
-                        .default
-                        .unwrap_or_default()
-                        .iter()
-                        .map(|&number| Value::Literal(number)),
-                );
+                args.extend(param.default.unwrap_or_default().iter().map(|&number| Value::Literal(number)));
             }
             place += param.kind.width();
         }
         let children: Vec<Field> = children.into_iter().collect();
         let depth = 1 + children.iter().map(|c| c.0.depth).max().unwrap_or(0);
-        Self(Arc::new(Node {
-            shape,
-            args,
-            children,
-            material,
-            origin,
-            depth,
-        }))
+        Self(Arc::new(Node { shape, args, children, material, origin, depth }))
     }
 
     /// The outermost call.
@@ -173,11 +160,7 @@ impl Field {
         *numbers = rest;
         let args = own.iter().map(|&number| Value::Literal(number)).collect();
         let children = node.children.iter().map(|child| child.with_numbers(numbers)).collect();
-        Self(Arc::new(Node {
-            args,
-            children,
-            ..node.clone()
-        }))
+        Self(Arc::new(Node { args, children, ..node.clone() }))
     }
 
     /// Combines two fields, joining chains of the same parameterless function into one call.
@@ -217,10 +200,7 @@ impl Node {
 
     /// The numbers of parameter `index`.
     pub fn argument(&self, index: usize) -> Vec<f64> {
-        self.args[self.shape.range(index, self.args.len())]
-            .iter()
-            .map(|value| value.number())
-            .collect()
+        self.args[self.shape.range(index, self.args.len())].iter().map(|value| value.number()).collect()
     }
 
     /// The axis it stands along as 0, 1 or 2, if it is a shape that has one.
@@ -241,19 +221,13 @@ impl<P> Form<P> {
     /// A call of the primitive's descriptor; see [`Field::new`].
     #[track_caller]
     pub fn new(shape: &'static Shape, args: impl IntoIterator<Item = Value>) -> Self {
-        Self {
-            field: Field::new(shape, args, []),
-            kind: PhantomData,
-        }
+        Self { field: Field::new(shape, args, []), kind: PhantomData }
     }
 
     /// See [`Field::with`].
     #[must_use]
     pub fn with(self, name: &str, numbers: &[Value]) -> Self {
-        Self {
-            field: self.field.with(name, numbers),
-            ..self
-        }
+        Self { field: self.field.with(name, numbers), ..self }
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! A batch is at most [`BATCH`] points in structure-of-arrays form. A number of a type with `C` components (1 for plain
 //! values, 4 for values with gradients) takes `C` consecutive [`Block`]s. Kernels are called through pointers, once for
-//! each batch; inside, the formula and everything below it is inlined and compiled for one instruction set.
+//! each batch, and never work in place: a select between a new number and the one that is there would become a masked
+//! store, which some processors take twenty cycles for. Inside, the formula and everything below it is inlined and compiled for one instruction set.
 
 use crate::expr::Expr;
 use crate::scalar::{Constants, Dual, Interval, Lanes, Scalar};
@@ -85,15 +86,6 @@ fn load_point<I: Simd, K: Packed<I>>(token: I, from: &[Block], lane: usize) -> V
     )
 }
 
-/// What a kernel does with its result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fold {
-    /// Store it.
-    Set,
-    /// Store the smaller one of it and what is there.
-    Min,
-}
-
 /// A primitive's work on one batch.
 pub struct PrimitiveJob<'a> {
     /// Three numbers a point.
@@ -102,8 +94,8 @@ pub struct PrimitiveJob<'a> {
     pub at: &'a [f32],
     /// The formula's constants.
     pub constants: &'a [f32],
-    /// What happens to the result.
-    pub fold: Fold,
+    /// What the result is the minimum with, if anything.
+    pub before: Option<&'a [Block]>,
     /// The result.
     pub out: &'a mut [Block],
     /// How many points, a multiple of [`WIDEST`].
@@ -112,33 +104,26 @@ pub struct PrimitiveJob<'a> {
 
 #[inline(always)]
 fn primitive_loop<P: Primitive, I: Simd, K: Packed<I>>(token: I, job: &mut PrimitiveJob<'_>) {
-    let PrimitiveJob {
-        points,
-        at,
-        constants,
-        fold,
-        ref mut out,
-        count,
-    } = *job;
+    let PrimitiveJob { points, at, constants, before, ref mut out, count } = *job;
     assert!(count <= BATCH && count.is_multiple_of(WIDEST));
     let (points, out) = (&points[..3 * K::COMPONENTS], &mut out[..K::COMPONENTS]);
     let like = K::load(token, points, 0);
     let at = Constants::new(like, at, 3).get::<3>();
     let constants = Constants::new(like, constants, constants.len());
     let mut lane = 0;
-    match fold {
-        Fold::Set => {
+    match before {
+        None => {
             while lane < count {
                 let p = load_point::<I, K>(token, points, lane) - at.into();
                 P::distance(p, &constants).store(out, lane);
                 lane += Lanes::<I>::COUNT;
             }
         }
-        Fold::Min => {
+        Some(before) => {
+            let before = &before[..K::COMPONENTS];
             while lane < count {
                 let p = load_point::<I, K>(token, points, lane) - at.into();
-                let before = K::load(token, out, lane);
-                before.min(P::distance(p, &constants)).store(out, lane);
+                K::load(token, before, lane).min(P::distance(p, &constants)).store(out, lane);
                 lane += Lanes::<I>::COUNT;
             }
         }
@@ -153,13 +138,15 @@ fn primitive_gradients<P: Primitive>(level: Level, job: &mut PrimitiveJob<'_>) {
     dispatch!(level, token => primitive_loop::<P, _, Dual<Lanes<_>>>(token, job));
 }
 
-/// A binary operator's work on one batch, in place.
+/// A binary operator's work on one batch.
 pub struct CombineJob<'a> {
+    /// The first operand.
+    pub a: &'a [Block],
     /// The second operand.
     pub b: &'a [Block],
     /// The formula's constants.
     pub constants: &'a [f32],
-    /// The first operand, and then the result.
+    /// The result.
     pub out: &'a mut [Block],
     /// How many points, a multiple of [`WIDEST`].
     pub count: usize,
@@ -167,23 +154,14 @@ pub struct CombineJob<'a> {
 
 #[inline(always)]
 fn combine_loop<C: Combine, I: Simd, K: Packed<I>>(token: I, job: &mut CombineJob<'_>, share: bool) {
-    let CombineJob {
-        b,
-        constants,
-        ref mut out,
-        count,
-    } = *job;
+    let CombineJob { a, b, constants, ref mut out, count } = *job;
     assert!(count <= BATCH && count.is_multiple_of(WIDEST));
-    let (b, out) = (&b[..K::COMPONENTS], &mut out[..K::COMPONENTS]);
-    let constants = Constants::new(K::load(token, b, 0), constants, constants.len());
+    let (a, b, out) = (&a[..K::COMPONENTS], &b[..K::COMPONENTS], &mut out[..K::COMPONENTS]);
+    let constants = Constants::new(K::load(token, a, 0), constants, constants.len());
     let mut lane = 0;
     while lane < count {
-        let (x, y) = (K::load(token, out, lane), K::load(token, b, lane));
-        let result = if share {
-            C::share(x, y, &constants)
-        } else {
-            C::combine(x, y, &constants)
-        };
+        let (x, y) = (K::load(token, a, lane), K::load(token, b, lane));
+        let result = if share { C::share(x, y, &constants) } else { C::combine(x, y, &constants) };
         result.store(out, lane);
         lane += Lanes::<I>::COUNT;
     }
@@ -201,11 +179,13 @@ fn combine_shares<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
     dispatch!(level, token => combine_loop::<C, _, Lanes<_>>(token, job, true));
 }
 
-/// The work of an operator with one operand on one batch, in place.
+/// The work of an operator with one operand on one batch.
 pub struct ModifyJob<'a> {
+    /// The operand.
+    pub from: &'a [Block],
     /// The formula's constants.
     pub constants: &'a [f32],
-    /// The operand, and then the result.
+    /// The result.
     pub out: &'a mut [Block],
     /// How many points, a multiple of [`WIDEST`].
     pub count: usize,
@@ -213,17 +193,13 @@ pub struct ModifyJob<'a> {
 
 #[inline(always)]
 fn modify_loop<M: Modify, I: Simd, K: Packed<I>>(token: I, job: &mut ModifyJob<'_>) {
-    let ModifyJob {
-        constants,
-        ref mut out,
-        count,
-    } = *job;
+    let ModifyJob { from, constants, ref mut out, count } = *job;
     assert!(count <= BATCH && count.is_multiple_of(WIDEST));
-    let out = &mut out[..K::COMPONENTS];
-    let constants = Constants::new(K::load(token, out, 0), constants, constants.len());
+    let (from, out) = (&from[..K::COMPONENTS], &mut out[..K::COMPONENTS]);
+    let constants = Constants::new(K::load(token, from, 0), constants, constants.len());
     let mut lane = 0;
     while lane < count {
-        M::modify(K::load(token, out, lane), &constants).store(out, lane);
+        M::modify(K::load(token, from, lane), &constants).store(out, lane);
         lane += Lanes::<I>::COUNT;
     }
 }
@@ -240,11 +216,7 @@ fn modify_gradients<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
 #[inline(always)]
 pub(crate) fn affine<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> Vec3<S> {
     let [ax, ay, az, bx, by, bz, cx, cy, cz, tx, ty, tz] = c.get();
-    vec3(
-        ax * p.x + bx * p.y + cx * p.z + tx,
-        ay * p.x + by * p.y + cy * p.z + ty,
-        az * p.x + bz * p.y + cz * p.z + tz,
-    )
+    vec3(ax * p.x + bx * p.y + cx * p.z + tx, ay * p.x + by * p.y + cy * p.z + ty, az * p.x + bz * p.y + cz * p.z + tz)
 }
 
 /// How many constants an affine map takes.
@@ -264,12 +236,7 @@ pub struct AffineJob<'a> {
 
 #[inline(always)]
 fn affine_loop<I: Simd, K: Packed<I>>(token: I, job: &mut AffineJob<'_>) {
-    let AffineJob {
-        from,
-        constants,
-        ref mut to,
-        count,
-    } = *job;
+    let AffineJob { from, constants, ref mut to, count } = *job;
     assert!(count <= BATCH && count.is_multiple_of(WIDEST));
     let c = K::COMPONENTS;
     let (from, to) = (&from[..3 * c], &mut to[..3 * c]);

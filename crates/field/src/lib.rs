@@ -24,23 +24,24 @@
 //! of files, cameras, colours, threads or graphics processors.
 
 pub mod analysis;
-pub mod compile;
+mod compile;
 pub mod contract;
 pub mod diagnostic;
 pub mod evaluator;
 pub mod expr;
 pub mod field;
 pub mod kernel;
+mod operation;
 pub mod program;
 pub mod ray;
 pub mod scalar;
 pub mod shape;
 pub mod shapes;
 pub mod simd;
+pub mod structure;
 pub mod vector;
 
 pub use analysis::{Analysis, MAX_DEPTH, analyse, extent};
-pub use compile::{Region, Structure};
 pub use contract::{Aabb, Contract, Extent, Metric};
 pub use diagnostic::{Diagnostic, Severity};
 pub use evaluator::{Evaluator, Points, Shares};
@@ -48,16 +49,16 @@ pub use field::{Axis, Field, Form, MaterialId, Node, Origin, Triple, Value};
 pub use program::Program;
 pub use scalar::{Constants, Dual, Interval, Scalar};
 pub use shape::{Arity, Kind, Param, ParamKind, Shape};
+pub use structure::{Region, Structure};
 pub use vector::{Vec3, vec3};
 
 /// What the files under `shapes/` need.
 mod shape_prelude {
     pub(crate) use crate::contract::{Contract, Metric};
     pub(crate) use crate::field::{Field, Form, Triple, Value};
+    pub(crate) use crate::ray::ExactForm;
     pub(crate) use crate::scalar::{Constants, Scalar};
-    pub(crate) use crate::shape::{
-        AXIS, About, Combine, Hull, Modify, Param, ParamKind, Place, Primitive, RayFn, Shape,
-    };
+    pub(crate) use crate::shape::{AXIS, About, Combine, Hull, Modify, Param, ParamKind, Place, Primitive, Shape};
     pub(crate) use crate::vector::{Vec3, vec3};
     pub(crate) use glam::{DAffine3, DMat3, DQuat, DVec3};
 }

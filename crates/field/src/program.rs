@@ -4,12 +4,10 @@
 //! as they are for evaluation at single points in `f64`, intervals, dual numbers and expressions, which all go through
 //! one generic interpreter.
 
-use crate::compile::{Code, Derive, Op, inverse_of};
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Graph, Slots};
-use crate::kernel::{
-    CombineFn, CombineKernels, Dual2, Fold, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels, affine,
-};
+use crate::kernel::{CombineFn, CombineKernels, Dual2, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels, affine};
+use crate::operation::{Code, Derive, Op, inverse_of};
 use crate::scalar::{Constants, Dual, Interval, Scalar};
 use crate::vector::Vec3;
 use glam::DVec3;
@@ -65,13 +63,7 @@ impl Program {
     ) -> Result<Self, BindError> {
         let double = derive(code, values, DVec3::ZERO)?;
         let single = derive(code, values, origin)?.iter().map(|&c| c as f32).collect();
-        Ok(Self {
-            code: Arc::clone(code),
-            single,
-            double: double.into(),
-            origin,
-            lipschitz,
-        })
+        Ok(Self { code: Arc::clone(code), single, double: double.into(), origin, lipschitz })
     }
 
     /// What the points of batches are relative to.
@@ -104,11 +96,7 @@ impl Program {
         };
         let result: Dual2 = self.run([input(0), input(1), input(2)].into());
         let [x, y, z] = result.gradient.map(|d| d.gradient.into());
-        (
-            result.value.value,
-            result.value.gradient.into(),
-            glam::DMat3::from_cols(x, y, z),
-        )
+        (result.value.value, result.value.gradient.into(), glam::DMat3::from_cols(x, y, z))
     }
 
     /// An enclosure of the field's values over a box.
@@ -154,54 +142,35 @@ impl Program {
             match op {
                 Op::Affine { from, to, constants } => {
                     let from = points[*from];
-                    points[*to] = S::with_table(&self.double, constants, |table| {
-                        affine(from, &Constants::new(like, table, 12))
-                    });
+                    points[*to] =
+                        S::with_table(&self.double, constants, |table| affine(from, &Constants::new(like, table, 12)));
                 }
-                Op::Primitive {
-                    table,
-                    point,
-                    at,
-                    constants,
-                    fold,
-                    out,
-                    ..
-                } => {
+                Op::Primitive { table, point, at, constants, before, out, .. } => {
                     let at = S::with_table(&self.double, at, |table| Constants::new(like, table, 3).get::<3>());
                     let p = points[*point] - at.into();
                     let value = S::with_table(&self.double, constants, |slots| {
                         S::primitive(&table.kernels)(p, &Constants::new(like, slots, constants.len()))
                     });
-                    values[*out] = match fold {
-                        Fold::Set => value,
-                        Fold::Min => values[*out].min(value),
+                    values[*out] = match before {
+                        None => value,
+                        Some(before) => values[*before].min(value),
                     };
                 }
-                Op::Combine {
-                    table,
-                    a,
-                    b,
-                    out,
-                    constants,
-                } => {
+                Op::Combine { table, a, b, out, constants } => {
                     let (a, b) = (values[*a], values[*b]);
                     values[*out] = S::with_table(&self.double, constants, |slots| {
                         S::combine(&table.kernels)(a, b, &Constants::new(like, slots, constants.len()))
                     });
                 }
-                Op::Modify {
-                    table,
-                    value,
-                    constants,
-                } => {
-                    let before = values[*value];
-                    values[*value] = S::with_table(&self.double, constants, |slots| {
-                        S::modify(&table.kernels)(before, &Constants::new(like, slots, constants.len()))
+                Op::Modify { table, from, out, constants } => {
+                    let from = values[*from];
+                    values[*out] = S::with_table(&self.double, constants, |slots| {
+                        S::modify(&table.kernels)(from, &Constants::new(like, slots, constants.len()))
                     });
                 }
-                Op::Scale { value, factor } => {
+                Op::Scale { from, out, factor } => {
                     let factor = S::with_table(&self.double, &(*factor..*factor + 1), |table| like.constant(table, 0));
-                    values[*value] = values[*value] * factor;
+                    values[*out] = values[*from] * factor;
                 }
             }
         }

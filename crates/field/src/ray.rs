@@ -2,36 +2,38 @@
 
 use crate::analysis::{axis_map, place_map};
 use crate::field::Field;
-use crate::shape::{Kind, RayFn};
-use glam::{DAffine3, DVec3};
+use crate::shape::Kind;
+use glam::{DAffine3, DMat3, DVec3};
+
+/// A surface that rays are intersected with in closed form. Normals have length 1; offsets are along them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs, reason = "described above")]
+pub enum ExactForm {
+    /// Everything behind a plane.
+    HalfSpace { normal: DVec3, offset: f64 },
+    /// A plane without thickness.
+    Sheet { normal: DVec3, offset: f64 },
+}
 
 /// A field that is nothing but one placed and painted primitive with an exact intersection.
-#[derive(Clone, Debug)]
-pub struct ExactRay {
-    local_from_world: DAffine3,
-    args: Vec<f64>,
-    hit: RayFn,
-}
+#[derive(Clone, Copy, Debug)]
+pub struct ExactRay(ExactForm);
 
 impl ExactRay {
     /// The intersection of `field`, if it has one.
     pub fn of(field: &Field) -> Option<Self> {
-        let mut world_from_local = DAffine3::IDENTITY;
+        let mut map = DAffine3::IDENTITY;
         let mut field = field;
         loop {
             let node = field.node();
             match &node.shape.kind {
                 Kind::Primitive(table) => {
                     if let Some(axis) = node.axis() {
-                        world_from_local *= DAffine3::from_mat3(axis_map(axis));
+                        map *= DAffine3::from_mat3(axis_map(axis));
                     }
-                    return Some(Self {
-                        local_from_world: world_from_local.inverse(),
-                        args: node.numbers(),
-                        hit: table.ray?,
-                    });
+                    return (table.exact_form)(&node.numbers()).map(|form| Self(form.mapped(&map)));
                 }
-                Kind::Place(_) => world_from_local *= place_map(node)?.0,
+                Kind::Place(_) => map *= place_map(node)?.0,
                 Kind::Paint => {}
                 Kind::Combine(_) if node.children.len() == 1 => {}
                 Kind::Combine(_) | Kind::Modify(_) => return None,
@@ -43,13 +45,41 @@ impl ExactRay {
     /// The distance along the ray from `origin` along the unit vector `direction` to the first point on the surface or
     /// inside, if there is one.
     pub fn hit(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
-        let local = self.local_from_world.transform_vector3(direction);
-        let scale = local.length();
-        (self.hit)(
-            &self.args,
-            self.local_from_world.transform_point3(origin),
-            local / scale,
-        )
-        .map(|t| t / scale)
+        match self.0 {
+            ExactForm::HalfSpace { normal, offset } => {
+                let height = normal.dot(origin) - offset;
+                if height <= 0.0 {
+                    return Some(0.0);
+                }
+                let descent = -normal.dot(direction);
+                (descent > 0.0).then(|| height / descent)
+            }
+            ExactForm::Sheet { normal, offset } => {
+                let t = (offset - normal.dot(origin)) / normal.dot(direction);
+                (t.is_finite() && t >= 0.0).then_some(t)
+            }
+        }
+    }
+}
+
+impl ExactForm {
+    /// The surface after an affine map of space.
+    fn mapped(self, map: &DAffine3) -> Self {
+        let covector: DMat3 = map.matrix3.inverse().transpose();
+        let plane = |normal: DVec3, offset: f64| {
+            let point = map.transform_point3(normal * offset);
+            let normal = (covector * normal).normalize();
+            (normal, normal.dot(point))
+        };
+        match self {
+            Self::HalfSpace { normal, offset } => {
+                let (normal, offset) = plane(normal, offset);
+                Self::HalfSpace { normal, offset }
+            }
+            Self::Sheet { normal, offset } => {
+                let (normal, offset) = plane(normal, offset);
+                Self::Sheet { normal, offset }
+            }
+        }
     }
 }

@@ -11,6 +11,7 @@
 
 use crate::contract::Contract;
 use crate::kernel::{CombineKernels, ModifyKernels, PrimitiveKernels};
+use crate::ray::ExactForm;
 use crate::scalar::{Constants, Scalar};
 use crate::vector::Vec3;
 use glam::{DAffine3, DVec3};
@@ -105,8 +106,8 @@ impl ParamKind {
         }
         let length = value.iter().map(|v| v * v).sum::<f64>().sqrt();
         match self {
-            Self::Length if value[0] < 0.0 => Some(format!("must not be negative, but is {:?}", value[0])),
-            Self::Positive if value[0] <= 0.0 => Some(format!("must be above 0, but is {:?}", value[0])),
+            Self::Length if value[0] < 0.0 => Some(format!("must not be negative, but is {}", brief(value[0]))),
+            Self::Positive if value[0] <= 0.0 => Some(format!("must be above 0, but is {}", brief(value[0]))),
             Self::Factor if value[0] == 0.0 => Some("must not be 0: it would flatten the shape".into()),
             Self::Size if value.iter().any(|&v| v <= 0.0) => Some("must be above 0 in every direction".into()),
             Self::Factors if value.contains(&0.0) => Some("must not be 0 in any direction".into()),
@@ -121,38 +122,29 @@ impl ParamKind {
     }
 }
 
+/// A number for a message: no hundreds of digits.
+fn brief(number: f64) -> String {
+    if number == 0.0 || (1e-6..1e12).contains(&number.abs()) { number.to_string() } else { format!("{number:e}") }
+}
+
 /// Below this length a direction's components lose precision when it is normalised.
 pub const SHORTEST_DIRECTION: f64 = 1e-100;
 
 impl Param {
     /// A parameter without default.
     pub const fn required(name: &'static str, kind: ParamKind, about: &'static str) -> Self {
-        Self {
-            name,
-            kind,
-            default: None,
-            about,
-        }
+        Self { name, kind, default: None, about }
     }
 
     /// A parameter with a default.
     pub const fn optional(name: &'static str, kind: ParamKind, default: &'static [f64], about: &'static str) -> Self {
-        Self {
-            name,
-            kind,
-            default: Some(default),
-            about,
-        }
+        Self { name, kind, default: Some(default), about }
     }
 }
 
 /// The axis an axial shape stands along; always its last parameter. Formulas are written for z.
-pub const AXIS: Param = Param::optional(
-    "axis",
-    ParamKind::Choice(&["x", "y", "z"]),
-    &[2.0],
-    "The axis it stands along.",
-);
+pub const AXIS: Param =
+    Param::optional("axis", ParamKind::Choice(&["x", "y", "z"]), &[2.0], "The axis it stands along.");
 
 /// A field made from nothing but parameters.
 pub trait Primitive: 'static {
@@ -181,16 +173,14 @@ pub trait Primitive: 'static {
     /// infinite for an unbounded shape. `level` is 0 for the shape itself and above 0 for the shape grown by operators.
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64;
 
-    /// The exact first point where the ray from `origin` along the unit vector `direction` meets the surface or starts
-    /// inside, as a distance along it. Only shapes that have one, and that profit, name it.
-    const RAY: Option<RayFn> = None;
+    /// The shape in a form that rays are intersected with exactly, if it has one and rays profit.
+    fn exact_form(_args: &[f64]) -> Option<ExactForm> {
+        None
+    }
 
     /// The formula. Write `#[inline(always)]` before it: a formula that is not inlined loses the instruction set.
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S;
 }
-
-/// An exact ray intersection: parameters, origin, unit direction.
-pub type RayFn = fn(&[f64], DVec3, DVec3) -> Option<f64>;
 
 /// Several fields made into one, folded from left to right.
 pub trait Combine: 'static {
@@ -312,7 +302,7 @@ pub struct PrimitiveTable {
     pub prepare: fn(&[f64]) -> Vec<f64>,
     pub contract: fn(&[f64]) -> Contract,
     pub support: fn(&[f64], DVec3, f64) -> f64,
-    pub ray: Option<RayFn>,
+    pub exact_form: fn(&[f64]) -> Option<ExactForm>,
     pub kernels: PrimitiveKernels,
 }
 
@@ -371,7 +361,7 @@ impl Shape {
                 prepare: P::prepare,
                 contract: P::contract,
                 support: P::support,
-                ray: P::RAY,
+                exact_form: P::exact_form,
                 kernels: PrimitiveKernels::of::<P>(),
             }),
         }

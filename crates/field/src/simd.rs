@@ -14,14 +14,11 @@ pub fn best() -> Level {
 pub fn available() -> Vec<Level> {
     let best = best();
     #[cfg(target_arch = "x86_64")]
-    let levels = [
-        best.as_sse2().map(Level::Sse2),
-        best.as_avx2().map(Level::Avx2),
-        best.as_avx512().map(Level::Avx512),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
+    let levels =
+        [best.as_sse2().map(Level::Sse2), best.as_avx2().map(Level::Avx2), best.as_avx512().map(Level::Avx512)]
+            .into_iter()
+            .flatten()
+            .collect();
     #[cfg(not(target_arch = "x86_64"))]
     let levels = vec![best];
     levels

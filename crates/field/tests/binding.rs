@@ -18,16 +18,10 @@ fn cup(radius: f64, depth: f64, turn: f64) -> Field {
 fn binding_other_numbers_equals_compiling_with_them() {
     let (before, after) = (compile(&cup(1.0, 0.2, 30.0)), compile(&cup(1.3, 0.5, 75.0)));
     assert_eq!(before.values().len(), after.values().len());
-    let (bound, compiled) = (
-        before.bind(after.values(), DVec3::ZERO).expect("the same structure"),
-        after.program(DVec3::ZERO),
-    );
+    let (bound, compiled) =
+        (before.bind(after.values(), DVec3::ZERO).expect("the same structure"), after.program(DVec3::ZERO));
     for i in 0..200 {
-        let p = DVec3::new(
-            (f64::from(i) * 0.7).sin(),
-            (f64::from(i) * 1.3).cos(),
-            (f64::from(i) * 0.31).sin(),
-        ) * 2.0;
+        let p = DVec3::new((f64::from(i) * 0.7).sin(), (f64::from(i) * 1.3).cos(), (f64::from(i) * 0.31).sin()) * 2.0;
         assert_eq!(bound.value(p), compiled.value(p));
     }
 }
@@ -36,33 +30,16 @@ fn binding_other_numbers_equals_compiling_with_them() {
 fn numbers_that_are_no_sound_arguments_are_refused() {
     let structure = compile(&sphere(1.0).into());
     let fault = structure.bind(&[-1.0], DVec3::ZERO).expect_err("negative");
-    assert!(
-        fault
-            .to_string()
-            .contains("`radius` of `sphere` must be above 0, but is -1.0"),
-        "{fault}"
-    );
-    assert!(matches!(
-        structure.bind(&[f64::NAN], DVec3::ZERO),
-        Err(BindError::Faults(_))
-    ));
-    assert!(matches!(
-        structure.bind(&[], DVec3::ZERO),
-        Err(BindError::Count { given: 0, wanted: 1 })
-    ));
-    assert!(matches!(
-        structure.bind(&[1.0, 2.0], DVec3::ZERO),
-        Err(BindError::Count { .. })
-    ));
+    assert!(fault.to_string().contains("`radius` of `sphere` must be above 0, but is -1"), "{fault}");
+    assert!(matches!(structure.bind(&[f64::NAN], DVec3::ZERO), Err(BindError::Faults(_))));
+    assert!(matches!(structure.bind(&[], DVec3::ZERO), Err(BindError::Count { given: 0, wanted: 1 })));
+    assert!(matches!(structure.bind(&[1.0, 2.0], DVec3::ZERO), Err(BindError::Count { .. })));
 }
 
 #[test]
 fn another_axis_needs_another_structure() {
     let structure = compile(&torus(1.0, 0.2).into());
-    assert!(matches!(
-        structure.bind(&[1.0, 0.2, 0.0], DVec3::ZERO),
-        Err(BindError::Structure)
-    ));
+    assert!(matches!(structure.bind(&[1.0, 0.2, 0.0], DVec3::ZERO), Err(BindError::Structure)));
     assert!(structure.bind(&[1.1, 0.3, 2.0], DVec3::ZERO).is_ok());
 }
 
@@ -74,9 +51,7 @@ fn moving_a_plane_of_a_polyhedron_keeps_the_structure() {
         convex_polyhedron(planes).into()
     };
     let structure = compile(&cube(1.0));
-    let low = structure
-        .bind(compile(&cube(0.25)).values(), DVec3::ZERO)
-        .expect("the same structure");
+    let low = structure.bind(compile(&cube(0.25)).values(), DVec3::ZERO).expect("the same structure");
     assert!((low.value(DVec3::new(0.0, 0.0, 2.0)) - 1.75).abs() < 1e-12);
     assert!((low.value(DVec3::new(2.0, 2.0, 1.25)) - 3.0_f64.sqrt()).abs() < 1e-12);
 }
@@ -86,10 +61,7 @@ fn translations_and_unions_cost_no_operations() {
     let spheres = (0..10).map(|i| sphere(0.1).at([f64::from(i), 0.0, 0.0]));
     assert_eq!(compile(&union(spheres).at([1.0, 2.0, 3.0])).operations(), 10);
     // A chain of maps is one map.
-    let turned = sphere(1.0)
-        .at([1.0, 0.0, 0.0])
-        .rotate([1.0, 0.0, 0.0], 10.0)
-        .rotate_euler([1.0, 2.0, 3.0]);
+    let turned = sphere(1.0).at([1.0, 0.0, 0.0]).rotate([1.0, 0.0, 0.0], 10.0).rotate_euler([1.0, 2.0, 3.0]);
     assert_eq!(compile(&turned).operations(), 2);
 }
 
@@ -113,10 +85,7 @@ fn regions_name_objects_and_innermost_materials() {
     let object = (sphere(1.0).painted(red) | sphere(1.0).at([3.0, 0.0, 0.0])).painted(blue);
     let structure = Structure::compile(&[object, cuboid([1.0; 3]).into()]).expect("sound");
     let region = |object: usize, material: Option<MaterialId>| Region { object, material };
-    assert_eq!(
-        structure.regions(),
-        [region(0, Some(red)), region(0, Some(blue)), region(1, None)]
-    );
+    assert_eq!(structure.regions(), [region(0, Some(red)), region(0, Some(blue)), region(1, None)]);
 }
 
 #[test]
@@ -125,11 +94,7 @@ fn no_objects_are_infinitely_far() {
     assert_eq!(program.value(DVec3::ZERO), f64::INFINITY);
     let mut values = [0.0; 3];
     let zeros = [0.0; 3];
-    let points = freikugel_field::Points {
-        x: &zeros,
-        y: &zeros,
-        z: &zeros,
-    };
+    let points = freikugel_field::Points { x: &zeros, y: &zeros, z: &zeros };
     freikugel_field::Evaluator::new(&program).values(points, &mut values);
     assert_eq!(values, [f32::INFINITY; 3]);
 }
@@ -149,12 +114,7 @@ fn faults_are_all_reported_with_the_line_they_come_from() {
 #[test]
 fn sheets_must_get_a_thickness_before_they_cut() {
     let sheet = || Field::from(sheet([0.0, 0.0, 1.0]));
-    for field in [
-        sphere(1.0) - sheet(),
-        -sheet(),
-        xor([sphere(1.0).into(), sheet()]),
-        sheet().offset(-0.1),
-    ] {
+    for field in [sphere(1.0) - sheet(), -sheet(), xor([sphere(1.0).into(), sheet()]), sheet().offset(-0.1)] {
         assert!(analyse(&field).0.is_none());
     }
     assert!(analyse(&(sphere(1.0) - sheet().offset(0.1))).0.is_some());

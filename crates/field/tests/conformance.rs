@@ -15,9 +15,7 @@ const CALLS: u64 = 6;
 const SINGLE: f64 = 4e-6;
 
 fn program(field: &Field) -> Program {
-    Structure::compile(std::slice::from_ref(field))
-        .expect("a sound field")
-        .program(DVec3::ZERO)
+    Structure::compile(std::slice::from_ref(field)).expect("a sound field").program(DVec3::ZERO)
 }
 
 /// Points of single precision, so that both precisions mean the same ones.
@@ -44,17 +42,10 @@ fn lanes_agree_with_f64_and_bit_for_bit_with_each_other() {
             for (p, &value) in points.iter().zip(&values) {
                 let exact = program.value(*p);
                 let error = (f64::from(value) - exact).abs();
-                assert!(
-                    error < SINGLE * (1.0 + exact.abs()),
-                    "{name} {seed} {level:?} at {p}: {value}, not {exact}"
-                );
+                assert!(error < SINGLE * (1.0 + exact.abs()), "{name} {seed} {level:?} at {p}: {value}, not {exact}");
             }
             let bits: Vec<u32> = values.iter().map(|v| v.to_bits()).collect();
-            assert_eq!(
-                first.get_or_insert_with(|| bits.clone()),
-                &bits,
-                "{name} {seed} {level:?}"
-            );
+            assert_eq!(first.get_or_insert_with(|| bits.clone()), &bits, "{name} {seed} {level:?}");
         }
     }
 }
@@ -72,11 +63,7 @@ fn batches_of_any_size_give_the_same_bits() {
         for start in (0..points.len()).step_by(size) {
             let range = start..(start + size).min(points.len());
             let mut part = vec![0.0; range.len()];
-            let these = Points {
-                x: &x[range.clone()],
-                y: &y[range.clone()],
-                z: &z[range.clone()],
-            };
+            let these = Points { x: &x[range.clone()], y: &y[range.clone()], z: &z[range.clone()] };
             evaluator.values(these, &mut part);
             assert_eq!(part, whole[range], "batches of {size}");
         }
@@ -106,15 +93,9 @@ fn gradients_agree_with_differences() {
                 continue;
             }
             smooth += 1;
-            assert!(
-                exact.distance(differences) < 1e-4,
-                "{name} {seed} at {p}: {exact}, not {differences}"
-            );
+            assert!(exact.distance(differences) < 1e-4, "{name} {seed} at {p}: {exact}, not {differences}");
             let single = DVec3::new(gradient[0][i].into(), gradient[1][i].into(), gradient[2][i].into());
-            assert!(
-                single.distance(exact) < 3e-3,
-                "{name} {seed} at {p}: {single}, not {exact}"
-            );
+            assert!(single.distance(exact) < 3e-3, "{name} {seed} at {p}: {single}, not {exact}");
         }
         assert!(smooth > 200, "{name} {seed}: only {smooth} points away from edges");
     }
@@ -158,21 +139,14 @@ fn intervals_contain_and_are_narrow() {
             let corner = random.point(2.0);
             let at = program.interval(corner.to_array().map(Interval::point));
             assert!(at.contains(program.value(corner)), "{name} {seed} at {corner}");
-            assert!(
-                at.width() < POINT_WIDTH,
-                "{name} {seed} at {corner}: width {}",
-                at.width()
-            );
+            assert!(at.width() < POINT_WIDTH, "{name} {seed} at {corner}: width {}", at.width());
 
             let cell = program.interval(corner.to_array().map(|c| Interval::new(c, c + CELL)));
             let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
             for i in 0..216 {
                 let place = DVec3::new(f64::from(i % 6), f64::from(i / 6 % 6), f64::from(i / 36)) / 5.0;
                 let value = program.value(corner + place * CELL);
-                assert!(
-                    cell.contains(value),
-                    "{name} {seed} at {corner}: {value} not in {cell:?}"
-                );
+                assert!(cell.contains(value), "{name} {seed} at {corner}: {value} not in {cell:?}");
                 (lowest, highest) = (lowest.min(value), highest.max(value));
             }
             // Around a ridge or in a seam the values hardly vary, while the slope's form still spans the cell's diagonal.
@@ -196,10 +170,7 @@ fn expressions_compute_the_same_and_are_valid_shaders() {
         for p in points(&mut Random::new(seed + 400), 50) {
             let value = graph.evaluate(result, p.to_array(), program.constants());
             let exact = program.value(p);
-            assert!(
-                (value - exact).abs() < 1e-12 * (1.0 + exact.abs()),
-                "{name} {seed} at {p}: {value}, not {exact}"
-            );
+            assert!((value - exact).abs() < 1e-12 * (1.0 + exact.abs()), "{name} {seed} at {p}: {value}, not {exact}");
         }
         let text = wgsl::PARAMETERS.to_owned() + &wgsl::function("field", &graph, result);
         let module = naga::front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{name}: {e}\n{text}"));
@@ -219,12 +190,7 @@ fn programs_agree_with_set_logic_on_random_trees() {
             if let Some(inside) = common::contains(&field, p)
                 && value.abs() > 1e-5
             {
-                assert_eq!(
-                    inside,
-                    value < 0.0,
-                    "seed {seed} at {p}: {value} in {}",
-                    common::notation(&field)
-                );
+                assert_eq!(inside, value < 0.0, "seed {seed} at {p}: {value} in {}", common::notation(&field));
             }
         }
     }
@@ -235,15 +201,8 @@ fn an_origin_far_away_changes_nothing_but_precision() {
     let at = DVec3::new(5e4, -3e4, 2e4);
     for seed in 0..50 {
         let field = tree(3, &mut Random::new(seed));
-        let moved = Field::new(
-            &freikugel_field::shapes::TRANSLATE,
-            at.to_array().map(Into::into),
-            [field.clone()],
-        );
-        let (here, there) = (
-            program(&field),
-            Structure::compile(&[moved]).expect("sound").program(at),
-        );
+        let moved = Field::new(&freikugel_field::shapes::TRANSLATE, at.to_array().map(Into::into), [field.clone()]);
+        let (here, there) = (program(&field), Structure::compile(&[moved]).expect("sound").program(at));
         let points = points(&mut Random::new(seed + 600), 64);
         let [x, y, z] = columns(&points);
         let mut values = [vec![0.0; 64], vec![0.0; 64]];
@@ -280,10 +239,7 @@ fn shares_are_the_partial_derivatives() {
             let (a, b) = (alone[0].value(p), alone[1].value(p));
             if (a - b).abs() > 1e-4 {
                 let expected = if a < b { 1.0 } else { 0.0 };
-                assert!(
-                    (of_first - expected).abs() < 1e-5,
-                    "seed {seed} at {p}: {of_first}, {a} against {b}"
-                );
+                assert!((of_first - expected).abs() < 1e-5, "seed {seed} at {p}: {of_first}, {a} against {b}");
             }
         }
     }
@@ -328,20 +284,12 @@ fn blends_share_by_their_derivatives() {
             let [x, y, z] = columns(&points);
             let mut shares = Shares::default();
             Evaluator::new(&program).shares(Points { x: &x, y: &y, z: &z }, &mut shares);
-            let painted = structure
-                .regions()
-                .iter()
-                .position(|r| r.material.is_some())
-                .expect("a painted region");
+            let painted = structure.regions().iter().position(|r| r.material.is_some()).expect("a painted region");
             for (i, &p) in points.iter().enumerate() {
                 // Growing the ball lowers its distance at the same rate everywhere.
                 let slope = (more.value(p) - less.value(p)) / (2.0 * STEP);
                 let share = f64::from(shares.of(painted)[i]);
-                assert!(
-                    (slope.abs() - share).abs() < 1e-3,
-                    "{name} {order} at {p}: {share}, not {}",
-                    slope.abs()
-                );
+                assert!((slope.abs() - share).abs() < 1e-3, "{name} {order} at {p}: {share}, not {}", slope.abs());
             }
         }
     }

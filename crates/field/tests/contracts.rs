@@ -9,9 +9,7 @@ use glam::DVec3;
 const CALLS: u64 = 8;
 
 fn program(field: &Field) -> Program {
-    Structure::compile(std::slice::from_ref(field))
-        .expect("a sound field")
-        .program(DVec3::ZERO)
+    Structure::compile(std::slice::from_ref(field)).expect("a sound field").program(DVec3::ZERO)
 }
 
 /// Every shape over primitives, and random trees.
@@ -24,12 +22,7 @@ fn fields() -> impl Iterator<Item = (String, Field)> {
 #[test]
 fn the_lipschitz_constant_is_never_exceeded() {
     for (name, field) in fields() {
-        let lipschitz = analyse(&field)
-            .0
-            .expect("sound")
-            .contract
-            .lipschitz
-            .expect("all constants are known so far");
+        let lipschitz = analyse(&field).0.expect("sound").contract.lipschitz.expect("all constants are known so far");
         let program = program(&field);
         let mut random = Random::new(7);
         for i in 0..400 {
@@ -38,10 +31,7 @@ fn the_lipschitz_constant_is_never_exceeded() {
             let length = 10.0_f64.powf(-9.0 + f64::from(i % 10));
             let q = p + random.direction() * length;
             let (slope, rounding) = ((program.value(p) - program.value(q)).abs(), 1e-13);
-            assert!(
-                slope <= lipschitz * p.distance(q) * (1.0 + 1e-9) + rounding,
-                "{name} from {p} to {q}"
-            );
+            assert!(slope <= lipschitz * p.distance(q) * (1.0 + 1e-9) + rounding, "{name} from {p} to {q}");
         }
     }
 }
@@ -49,26 +39,16 @@ fn the_lipschitz_constant_is_never_exceeded() {
 #[test]
 fn the_lipschitz_constant_is_not_lazy() {
     for (name, field) in fields() {
-        let lipschitz = analyse(&field)
-            .0
-            .expect("sound")
-            .contract
-            .lipschitz
-            .expect("all constants are known so far");
+        let lipschitz = analyse(&field).0.expect("sound").contract.lipschitz.expect("all constants are known so far");
         let program = program(&field);
         let mut random = Random::new(8);
-        let largest = (0..400)
-            .map(|_| program.gradient(random.point(2.0)).1.length())
-            .fold(0.0, f64::max);
+        let largest = (0..400).map(|_| program.gradient(random.point(2.0)).1.length()).fold(0.0, f64::max);
         // An operator knows its child's constant, not in which direction the child is steepest: a plane may stand so that
         // stretching flattens it. Trees may hide their steepest part altogether.
         let flat =
             ["plane", "sheet"].contains(&field.node().children.first().map_or("", |c| c.node().shape.about.name));
         let excused = name.starts_with("tree") || (name.starts_with("stretch") && flat);
-        assert!(
-            excused || lipschitz <= 1.25 * largest,
-            "{name}: {lipschitz} for {largest}"
-        );
+        assert!(excused || lipschitz <= 1.25 * largest, "{name}: {lipschitz} for {largest}");
     }
 }
 
@@ -102,11 +82,7 @@ fn the_ball_of_the_bound_is_empty_and_that_of_an_exact_distance_touches() {
                         let near = p - gradient * value + random.direction() * margin;
                         contains(&field, near) == Some(!here)
                     });
-                assert!(
-                    touches,
-                    "{name}: nothing at distance {value} of {p} from {}",
-                    notation(&field)
-                );
+                assert!(touches, "{name}: nothing at distance {value} of {p} from {}", notation(&field));
             }
         }
     }
@@ -166,11 +142,7 @@ fn an_exact_distance_equals_the_nearest_of_many_surface_points() {
                 spread *= 0.45;
             }
             if best.0.is_finite() {
-                assert!(
-                    (best.0 - value).abs() < 2e-3 * value,
-                    "{name} at {p}: {value}, but {}",
-                    best.0
-                );
+                assert!((best.0 - value).abs() < 2e-3 * value, "{name} at {p}: {value}, but {}", best.0);
             }
         }
     }
@@ -199,15 +171,7 @@ fn the_extent_holds_the_shape() {
 
 #[test]
 fn the_extent_of_primitives_under_maps_is_tight() {
-    let placed = [
-        "translate",
-        "rotate",
-        "rotate_euler",
-        "rotate_quaternion",
-        "reflect",
-        "scale",
-        "stretch",
-    ];
+    let placed = ["translate", "rotate", "rotate_euler", "rotate_quaternion", "reflect", "scale", "stretch"];
     for (name, seed, field) in every_shape(4) {
         let is_primitive = field.node().children.is_empty();
         if !is_primitive && !placed.contains(&name) && name != "paint" {
@@ -274,32 +238,14 @@ fn metrics_are_as_claimed() {
     assert_eq!(metric(a() - b()), (Metric::Bound, Metric::Exact, true));
     assert_eq!(metric(-(a() | b())), (Metric::Bound, Metric::Exact, true));
     assert_eq!(metric(a() - (b() & a())), (Metric::Bound, Metric::Bound, true));
-    assert_eq!(
-        metric(smooth_union(0.1, [a().at([0.0; 3]), b().at([0.0; 3])])),
-        (Metric::Bound, Metric::Bound, true)
-    );
-    assert_eq!(
-        metric(a().at([1.0, 2.0, 3.0]).scale(2.0)),
-        (Metric::Exact, Metric::Exact, true)
-    );
-    assert_eq!(
-        metric(a().stretch([1.0, 2.0, 1.0])),
-        (Metric::Bound, Metric::Bound, true)
-    );
-    assert_eq!(
-        metric(a().stretch([2.0, -2.0, 2.0])),
-        (Metric::Exact, Metric::Exact, true)
-    );
+    assert_eq!(metric(smooth_union(0.1, [a().at([0.0; 3]), b().at([0.0; 3])])), (Metric::Bound, Metric::Bound, true));
+    assert_eq!(metric(a().at([1.0, 2.0, 3.0]).scale(2.0)), (Metric::Exact, Metric::Exact, true));
+    assert_eq!(metric(a().stretch([1.0, 2.0, 1.0])), (Metric::Bound, Metric::Bound, true));
+    assert_eq!(metric(a().stretch([2.0, -2.0, 2.0])), (Metric::Exact, Metric::Exact, true));
     assert_eq!(metric(b().offset(0.1)), (Metric::Exact, Metric::Bound, true));
     assert_eq!(metric(b().offset(-0.1)), (Metric::Bound, Metric::Exact, true));
     assert_eq!(metric(b().shell(0.1)), (Metric::Exact, Metric::Bound, true));
-    assert_eq!(
-        metric(sheet([0.0, 0.0, 1.0]).into()),
-        (Metric::Exact, Metric::Exact, false)
-    );
-    assert_eq!(
-        metric(sheet([0.0, 0.0, 1.0]).offset(0.1)),
-        (Metric::Exact, Metric::Bound, true)
-    );
+    assert_eq!(metric(sheet([0.0, 0.0, 1.0]).into()), (Metric::Exact, Metric::Exact, false));
+    assert_eq!(metric(sheet([0.0, 0.0, 1.0]).offset(0.1)), (Metric::Exact, Metric::Bound, true));
     assert_eq!(metric(torus(0.5, 0.7).into()), (Metric::Exact, Metric::Bound, true));
 }

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Random, call};
-use freikugel_field::kernel::{BATCH, Block, CombineJob, Fold, ModifyJob, PrimitiveJob};
+use freikugel_field::kernel::{BATCH, Block, CombineJob, ModifyJob, PrimitiveJob};
 use freikugel_field::simd::{self, Level};
 use freikugel_field::{Evaluator, Kind, Points, Shape, Structure, shapes};
 use glam::DVec3;
@@ -20,7 +20,7 @@ const CALLS: usize = 40;
 const RUNS: usize = 25;
 
 /// A kernel that does not reach the gain is measured again so many times before it counts as a failure.
-const TRIES: usize = 8;
+const TRIES: usize = 60;
 
 /// Something that runs one kernel once, on an instruction set.
 type Work = Box<dyn FnMut(Level)>;
@@ -30,9 +30,7 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
     let mut random = Random::new(4);
     let mut blocks = |count: usize| -> Vec<Block> {
         let mut blocks = vec![Block::default(); count];
-        blocks
-            .iter_mut()
-            .for_each(|b| b.0.iter_mut().for_each(|v| *v = random.range(-2.0, 2.0) as f32));
+        blocks.iter_mut().for_each(|b| b.0.iter_mut().for_each(|v| *v = random.range(-2.0, 2.0) as f32));
         blocks
     };
     let field = call(shape, 0, &mut Random::new(3));
@@ -40,32 +38,19 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
     let single = |constants: Vec<f64>| constants.into_iter().map(|c| c as f32).collect::<Vec<f32>>();
     let count = BATCH;
     match &shape.kind {
-        Kind::Primitive(table) => [
-            ("values", table.kernels.values, 1),
-            ("gradients", table.kernels.gradients, 4),
-        ]
-        .into_iter()
-        .map(|(name, kernel, components)| {
-            let (points, mut out) = (blocks(3 * components), blocks(components));
-            let constants = single((table.prepare)(&args));
-            let work: Work = Box::new(move |level| {
-                let (at, fold) = (&[0.1, 0.2, 0.3], Fold::Set);
-                let (points, constants, out) = (&points, &constants, &mut out);
-                kernel(
-                    level,
-                    &mut PrimitiveJob {
-                        points,
-                        at,
-                        constants,
-                        fold,
-                        out,
-                        count,
-                    },
-                );
-            });
-            (name, work)
-        })
-        .collect(),
+        Kind::Primitive(table) => [("values", table.kernels.values, 1), ("gradients", table.kernels.gradients, 4)]
+            .into_iter()
+            .map(|(name, kernel, components)| {
+                let (points, mut out) = (blocks(3 * components), blocks(components));
+                let constants = single((table.prepare)(&args));
+                let work: Work = Box::new(move |level| {
+                    let (at, before) = (&[0.1, 0.2, 0.3], None);
+                    let (points, constants, out) = (&points, &constants, &mut out);
+                    kernel(level, &mut PrimitiveJob { points, at, constants, before, out, count });
+                });
+                (name, work)
+            })
+            .collect(),
         Kind::Combine(table) => [
             ("values", table.kernels.values, 1),
             ("gradients", table.kernels.gradients, 4),
@@ -73,43 +58,25 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
         ]
         .into_iter()
         .map(|(name, kernel, components)| {
-            let (b, mut out) = (blocks(components), blocks(components));
+            let (a, b, mut out) = (blocks(components), blocks(components), blocks(components));
             let constants = single((table.prepare)(&args));
             let work: Work = Box::new(move |level| {
-                kernel(
-                    level,
-                    &mut CombineJob {
-                        b: &b,
-                        constants: &constants,
-                        out: &mut out,
-                        count,
-                    },
-                );
+                kernel(level, &mut CombineJob { a: &a, b: &b, constants: &constants, out: &mut out, count });
             });
             (name, work)
         })
         .collect(),
-        Kind::Modify(table) => [
-            ("values", table.kernels.values, 1),
-            ("gradients", table.kernels.gradients, 4),
-        ]
-        .into_iter()
-        .map(|(name, kernel, components)| {
-            let mut out = blocks(components);
-            let constants = single((table.prepare)(&args));
-            let work: Work = Box::new(move |level| {
-                kernel(
-                    level,
-                    &mut ModifyJob {
-                        constants: &constants,
-                        out: &mut out,
-                        count,
-                    },
-                );
-            });
-            (name, work)
-        })
-        .collect(),
+        Kind::Modify(table) => [("values", table.kernels.values, 1), ("gradients", table.kernels.gradients, 4)]
+            .into_iter()
+            .map(|(name, kernel, components)| {
+                let (from, mut out) = (blocks(components), blocks(components));
+                let constants = single((table.prepare)(&args));
+                let work: Work = Box::new(move |level| {
+                    kernel(level, &mut ModifyJob { from: &from, constants: &constants, out: &mut out, count });
+                });
+                (name, work)
+            })
+            .collect(),
         Kind::Place(_) | Kind::Paint => Vec::new(),
     }
 }
@@ -133,9 +100,7 @@ fn every_kernel_gains_from_wider_vectors() {
         return;
     };
     let of_shapes = shapes::ALL.iter().flat_map(|shape| {
-        kernels(shape)
-            .into_iter()
-            .map(|(kind, work)| (format!("{} {kind}", shape.about.name), work))
+        kernels(shape).into_iter().map(|(kind, work)| (format!("{} {kind}", shape.about.name), work))
     });
     let mut failures = Vec::new();
     for (name, mut work) in of_shapes.chain([("affine maps".to_owned(), affine())]) {

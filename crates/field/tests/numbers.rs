@@ -10,17 +10,8 @@ fn allows(outcome: Trilean, truth: bool) -> bool {
 
 /// An interval and a number in it.
 fn interval_with_member() -> impl Strategy<Value = (Interval, f64)> {
-    (
-        -1e3..1e3_f64,
-        prop_oneof![Just(0.0), 0.0..1e-9_f64, 0.0..10.0_f64],
-        0.0..=1.0_f64,
-    )
-        .prop_map(|(lo, width, share)| {
-            (
-                Interval::new(lo, lo + width),
-                (lo + width * share).clamp(lo, lo + width),
-            )
-        })
+    (-1e3..1e3_f64, prop_oneof![Just(0.0), 0.0..1e-9_f64, 0.0..10.0_f64], 0.0..=1.0_f64)
+        .prop_map(|(lo, width, share)| (Interval::new(lo, lo + width), (lo + width * share).clamp(lo, lo + width)))
 }
 
 proptest! {
@@ -77,12 +68,7 @@ proptest! {
 #[test]
 fn lengths_and_roots_at_zero_have_finite_derivatives() {
     let zero = Dual::input(0.0, 0);
-    for dual in [
-        Scalar::sqrt(zero),
-        Dual::length2(zero, zero),
-        Dual::length3(zero, zero, zero),
-        Scalar::abs(zero),
-    ] {
+    for dual in [Scalar::sqrt(zero), Dual::length2(zero, zero), Dual::length3(zero, zero, zero), Scalar::abs(zero)] {
         assert!(dual.gradient.iter().all(|d| d.is_finite()), "{dual:?}");
     }
 }
@@ -94,21 +80,14 @@ fn iteration_stops_lane_by_lane_and_at_the_limit() {
     assert_eq!(doubled(3, 50.0), 8.0);
     assert_eq!(doubled(0, 50.0), 1.0);
     // An interval runs on while any of its numbers would, and covers where each stops.
-    let [s] = Interval::iterate(100, [Interval::new(1.0, 3.0)], |[s]| {
-        ([s * 2.0], (s * 2.0).lt(s.lift(50.0)))
-    });
+    let [s] = Interval::iterate(100, [Interval::new(1.0, 3.0)], |[s]| ([s * 2.0], (s * 2.0).lt(s.lift(50.0))));
     assert!(s.contains(64.0) && s.contains(96.0));
 }
 
 #[test]
 fn intervals_at_the_ends_of_the_line_stay_sound() {
     let entire = Interval::ENTIRE;
-    for result in [
-        entire + entire,
-        entire - entire,
-        entire * Interval::point(0.0),
-        Interval::point(1.0) / entire,
-    ] {
+    for result in [entire + entire, entire - entire, entire * Interval::point(0.0), Interval::point(1.0) / entire] {
         assert!(result.contains(0.0), "{result:?}");
     }
     assert!(Scalar::sqrt(entire).contains(3.0));

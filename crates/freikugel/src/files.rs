@@ -118,11 +118,7 @@ impl Output {
     /// If it is a folder, or can't be written.
     pub fn open(path: &Path) -> io::Result<Self> {
         // A link stays a link; what it leads to is replaced.
-        let path = if path.exists() {
-            path.canonicalize()?
-        } else {
-            path.to_owned()
-        };
+        let path = if path.exists() { path.canonicalize()? } else { path.to_owned() };
         match std::fs::metadata(&path) {
             Ok(known) if known.is_dir() => return Err(io::Error::other("it is a folder")),
             Ok(known) if known.permissions().readonly() => return Err(io::ErrorKind::PermissionDenied.into()),
@@ -137,10 +133,7 @@ impl Output {
             _ => Path::new("."),
         };
         if path.file_name().is_none() || !folder.is_dir() {
-            return Err(io::Error::new(
-                io::ErrorKind::NotFound,
-                format!("there is no folder {}", folder.display()),
-            ));
+            return Err(io::Error::new(io::ErrorKind::NotFound, format!("there is no folder {}", folder.display())));
         }
         let mut builder = tempfile::Builder::new();
         builder.prefix(".freikugel-").suffix(".part");

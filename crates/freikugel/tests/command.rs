@@ -62,27 +62,11 @@ fn renders_to_the_named_file_and_to_the_default_one() {
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert!(stderr(&output).contains("ball.png: 40 x 30"), "{}", stderr(&output));
     assert_eq!(stdout(&output), "");
-    let output = folder.run(&[
-        "render",
-        "ball.json",
-        "-o",
-        "other.EXR",
-        "--quiet",
-        "--stats",
-        "stats.json",
-    ]);
+    let output = folder.run(&["render", "ball.json", "-o", "other.EXR", "--quiet", "--stats", "stats.json"]);
     assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
     assert_eq!(folder.names(), ["ball.json", "ball.png", "other.EXR", "stats.json"]);
-    assert!(
-        std::fs::read(folder.path("ball.png"))
-            .expect("there")
-            .starts_with(b"\x89PNG")
-    );
-    assert!(
-        std::fs::read(folder.path("other.EXR"))
-            .expect("there")
-            .starts_with(&[0x76, 0x2f, 0x31, 0x01])
-    );
+    assert!(std::fs::read(folder.path("ball.png")).expect("there").starts_with(b"\x89PNG"));
+    assert!(std::fs::read(folder.path("other.EXR")).expect("there").starts_with(&[0x76, 0x2f, 0x31, 0x01]));
     let stats: serde_json::Value =
         serde_json::from_slice(&std::fs::read(folder.path("stats.json")).expect("there")).expect("JSON");
     assert_eq!(stats["rays"]["camera"], 40 * 30 * 2);
@@ -123,13 +107,7 @@ fn a_broken_scene_gets_all_its_mistakes_and_code_1() {
         let output = folder.run(&[command, "broken.json"]);
         assert_eq!(code(&output), 1);
         let text = stderr(&output);
-        for part in [
-            "broken.json:3:",
-            "did you mean `radius`",
-            "broken.json:4:",
-            "broken.json:5:",
-            "has 3 errors",
-        ] {
+        for part in ["broken.json:3:", "did you mean `radius`", "broken.json:4:", "broken.json:5:", "has 3 errors"] {
             assert!(text.contains(part), "{command} does not say {part:?}: {text}");
         }
         assert_eq!(folder.names(), ["broken.json"], "{command} leaves nothing behind");
@@ -160,10 +138,7 @@ fn impossible_inputs_get_a_message() {
             let output = folder.run(&args);
             let text = stderr(&output);
             assert_eq!(code(&output), 1, "{command} {name}: {text}");
-            assert!(
-                text.contains(says) && !text.contains("panicked"),
-                "{command} {name}: {text}"
-            );
+            assert!(text.contains(says) && !text.contains("panicked"), "{command} {name}: {text}");
         }
     }
     assert!(!folder.path("x.png").exists());
@@ -174,10 +149,7 @@ fn impossible_outputs_get_a_message_before_any_work() {
     let folder = Folder::new();
     folder.write("ball.json", BALL.replace("40", "40000"));
     std::fs::create_dir(folder.path("folder.png")).expect("can make");
-    for (path, says) in [
-        ("folder.png", "it is a folder"),
-        ("no/such/x.png", "there is no folder"),
-    ] {
+    for (path, says) in [("folder.png", "it is a folder"), ("no/such/x.png", "there is no folder")] {
         let output = folder.run(&["render", "ball.json", "-o", path, "--height", "1000"]);
         assert_eq!(code(&output), 1);
         assert!(stderr(&output).contains(says), "{}", stderr(&output));
@@ -208,10 +180,7 @@ fn off_words_get_code_2() {
     ] {
         let output = folder.run(args);
         assert_eq!(code(&output), 2, "{args:?}: {}", stderr(&output));
-        assert!(
-            !stderr(&output).is_empty() && !stderr(&output).contains("panicked"),
-            "{args:?}"
-        );
+        assert!(!stderr(&output).is_empty() && !stderr(&output).contains("panicked"), "{args:?}");
     }
     assert_eq!(folder.names(), ["ball.json"]);
 }
@@ -224,9 +193,7 @@ fn a_crop_is_a_cut_of_the_whole() {
         let output = folder.run(&[&["render", "ball.json", "-o", "x.png"], args].concat());
         assert_eq!(code(&output), 0, "{}", stderr(&output));
         let file = std::fs::File::open(folder.path("x.png")).expect("there");
-        let mut reader = png::Decoder::new(std::io::BufReader::new(file))
-            .read_info()
-            .expect("a picture");
+        let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a picture");
         let mut pixels = vec![0; reader.output_buffer_size().expect("fits")];
         let info = reader.next_frame(&mut pixels).expect("a frame");
         (info.width as usize, pixels)
@@ -263,10 +230,7 @@ fn info_schema_and_help_say_what_there_is() {
     for shape in freikugel::field::shapes::ALL {
         assert!(shapes.contains(shape.about.name), "{shapes}");
         let text = stdout(&folder.run(&["help", "shapes", shape.about.name]));
-        assert!(
-            text.contains(shape.about.summary) && text.contains(shape.about.example),
-            "{text}"
-        );
+        assert!(text.contains(shape.about.summary) && text.contains(shape.about.example), "{text}");
     }
     for args in [&["help"][..], &["help", "render"], &["--help"], &["render", "--help"]] {
         let output = folder.run(args);
@@ -279,18 +243,11 @@ fn info_schema_and_help_say_what_there_is() {
 fn every_example_of_a_shape_is_a_sound_scene() {
     let folder = Folder::new();
     for shape in freikugel::field::shapes::ALL {
-        let scene = format!(
-            r#"{{ "materials": {{ "clay": {{}} }}, "objects": [ {{ "shape": {} }} ] }}"#,
-            shape.about.example
-        );
+        let scene =
+            format!(r#"{{ "materials": {{ "clay": {{}} }}, "objects": [ {{ "shape": {} }} ] }}"#, shape.about.example);
         folder.write("example.json", scene);
         let output = folder.run(&["check", "example.json"]);
-        assert_eq!(
-            (code(&output), stderr(&output).as_str()),
-            (0, ""),
-            "{}",
-            shape.about.name
-        );
+        assert_eq!((code(&output), stderr(&output).as_str()), (0, ""), "{}", shape.about.name);
     }
 }
 
@@ -314,10 +271,7 @@ fn every_scene_that_comes_along_is_sound_and_shows_something() {
             assert!(!stderr(&output).contains("error"), "{name}: {}", stderr(&output));
             let stats: serde_json::Value =
                 serde_json::from_slice(&std::fs::read(folder.path("stats.json")).expect("there")).expect("JSON");
-            assert!(
-                stats["hits"].as_u64().expect("a count") > 32 * 24 / 10,
-                "{name}: {stats}"
-            );
+            assert!(stats["hits"].as_u64().expect("a count") > 32 * 24 / 10, "{name}: {stats}");
             count += 1;
         }
     }
@@ -330,16 +284,7 @@ fn ctrl_c_leaves_no_partial_file() {
     let folder = Folder::new();
     folder.write("ball.json", BALL);
     let mut child = Command::new(env!("CARGO_BIN_EXE_freikugel"))
-        .args([
-            "render",
-            "ball.json",
-            "--width",
-            "4000",
-            "--height",
-            "4000",
-            "--samples",
-            "4000",
-        ])
+        .args(["render", "ball.json", "--width", "4000", "--height", "4000", "--samples", "4000"])
         .current_dir(folder.0.path())
         .stderr(Stdio::piped())
         .spawn()
@@ -350,10 +295,7 @@ fn ctrl_c_leaves_no_partial_file() {
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
     assert_eq!(folder.names().len(), 2, "the file that will be the picture");
-    let kill = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .expect("kill runs");
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill runs");
     assert!(kill.success());
     let status = child.wait().expect("it ends");
     assert_eq!(status.code(), Some(130));
@@ -369,11 +311,7 @@ fn links_and_devices_are_written_through() {
     std::os::unix::fs::symlink(folder.path("real.png"), folder.path("link.png")).expect("can link");
     assert_eq!(code(&folder.run(&["render", "ball.json", "-o", "link.png"])), 0);
     assert!(folder.path("link.png").is_symlink());
-    assert!(
-        std::fs::read(folder.path("real.png"))
-            .expect("there")
-            .starts_with(b"\x89PNG")
-    );
+    assert!(std::fs::read(folder.path("real.png")).expect("there").starts_with(b"\x89PNG"));
     std::os::unix::fs::symlink("/dev/null", folder.path("null.png")).expect("can link");
     assert_eq!(code(&folder.run(&["render", "ball.json", "-o", "null.png"])), 0);
     assert!(!Path::new("/dev/null").is_file());

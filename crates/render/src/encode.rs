@@ -42,10 +42,7 @@ pub fn encode_exr(image: &Image) -> Result<Vec<u8>, EncodeError> {
         let [r, g, b] = image.pixels()[y * size.0 + x];
         (r, g, b)
     };
-    let attributes = LayerAttributes {
-        software_name: Some(Text::from("Freikugel")),
-        ..LayerAttributes::default()
-    };
+    let attributes = LayerAttributes { software_name: Some(Text::from("Freikugel")), ..LayerAttributes::default() };
     let layer = Layer::new(size, attributes, Encoding::FAST_LOSSLESS, SpecificChannels::rgb(colors));
     let mut picture = exr::image::Image::from_layer(layer);
     picture.attributes = ImageAttributes {
@@ -58,11 +55,7 @@ pub fn encode_exr(image: &Image) -> Result<Vec<u8>, EncodeError> {
         ..picture.attributes
     };
     let mut file = Cursor::new(Vec::new());
-    picture
-        .write()
-        .non_parallel()
-        .to_buffered(&mut file)
-        .map_err(|error| EncodeError(error.to_string()))?;
+    picture.write().non_parallel().to_buffered(&mut file).map_err(|error| EncodeError(error.to_string()))?;
     Ok(file.into_inner())
 }
 
@@ -85,10 +78,7 @@ mod tests {
 
     #[test]
     fn a_png_holds_the_srgb_bytes() {
-        let tone = Tone {
-            exposure: 0.5,
-            ..Tone::default()
-        };
+        let tone = Tone { exposure: 0.5, ..Tone::default() };
         let file = encode_png(&picture(), &tone).expect("a file");
         let mut reader = png::Decoder::new(Cursor::new(file)).read_info().expect("a PNG");
         assert_eq!((reader.info().width, reader.info().height), (7, 5));

@@ -76,21 +76,14 @@ mod tests {
             let offsets = offsets(count);
             let mean = offsets.iter().sum::<DVec2>() / f64::from(count);
             assert!(mean.length() < 1e-12, "{count}: {mean}");
-            assert!(
-                offsets.iter().all(|o| o.abs().max_element() < SUPPORT / 2.0 + 0.2),
-                "{count}"
-            );
+            assert!(offsets.iter().all(|o| o.abs().max_element() < SUPPORT / 2.0 + 0.2), "{count}");
         }
     }
 
     #[test]
     fn rays_follow_the_window() {
         // The window itself, summed over each tenth of its width, against the rays that land there.
-        let window = |x: f64| {
-            (0..4)
-                .map(|order| TERMS[order] * (TAU * order as f64 * x / SUPPORT).cos())
-                .sum::<f64>()
-        };
+        let window = |x: f64| (0..4).map(|order| TERMS[order] * (TAU * order as f64 * x / SUPPORT).cos()).sum::<f64>();
         let count = 40_000;
         let offsets = offsets(count);
         let cells = 10;
@@ -100,9 +93,7 @@ mod tests {
                 let high = low + SUPPORT / cells as f64;
                 let steps = 1000;
                 let width = (high - low) / steps as f64;
-                let expected = (0..steps)
-                    .map(|step| window(low + (step as f64 + 0.5) * width) * width)
-                    .sum::<f64>()
+                let expected = (0..steps).map(|step| window(low + (step as f64 + 0.5) * width) * width).sum::<f64>()
                     / (TERMS[0] * SUPPORT);
                 let inside = offsets.iter().filter(|o| o[axis] >= low && o[axis] < high).count();
                 let share = inside as f64 / f64::from(count);

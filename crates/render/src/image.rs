@@ -26,11 +26,7 @@ impl Image {
     /// # Panics
     /// If there are not `width` times `height` pixels.
     pub fn new(width: u32, height: u32, pixels: Vec<[f32; 3]>) -> Self {
-        assert_eq!(
-            u64::from(width) * u64::from(height),
-            pixels.len() as u64,
-            "one colour for each pixel"
-        );
+        assert_eq!(u64::from(width) * u64::from(height), pixels.len() as u64, "one colour for each pixel");
         Self { width, height, pixels }
     }
 
@@ -69,13 +65,7 @@ impl Image {
                 let brightest = pixel[0].max(pixel[1]).max(pixel[2]);
                 if tone.overbright == Overbright::ScaleDown && brightest > 1.0 {
                     // Infinite light has no hue left to keep.
-                    pixel = pixel.map(|channel| {
-                        if brightest < f32::INFINITY {
-                            channel / brightest
-                        } else {
-                            1.0
-                        }
-                    });
+                    pixel = pixel.map(|channel| if brightest < f32::INFINITY { channel / brightest } else { 1.0 });
                 }
                 pixel.map(|channel| encoder.encode(channel))
             })
@@ -86,29 +76,19 @@ impl Image {
 impl Tone {
     /// What the scene's picture asks for.
     pub fn of(picture: &Picture) -> Self {
-        Self {
-            exposure: picture.exposure,
-            overbright: picture.overbright,
-        }
+        Self { exposure: picture.exposure, overbright: picture.overbright }
     }
 }
 
 impl Default for Tone {
     fn default() -> Self {
-        Self {
-            exposure: 0.0,
-            overbright: Overbright::Clamp,
-        }
+        Self { exposure: 0.0, overbright: Overbright::Clamp }
     }
 }
 
 /// The linear value of an sRGB value, both from 0 to 1 (IEC 61966-2-1).
 pub fn srgb_decode(encoded: f64) -> f64 {
-    if encoded <= 0.04045 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    }
+    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
 /// The sRGB byte nearest to a linear value; values outside 0 to 1 are clamped, and what is no number is 0.
@@ -133,11 +113,7 @@ static ENCODER: LazyLock<Encoder> = LazyLock::new(|| {
     for (code, border) in borders[..255].iter_mut().enumerate() {
         let exact = srgb_decode((code as f64 + 0.5) / 255.0);
         let nearest = exact as f32;
-        *border = if f64::from(nearest) < exact {
-            nearest.next_up()
-        } else {
-            nearest
-        };
+        *border = if f64::from(nearest) < exact { nearest.next_up() } else { nearest };
     }
     let mut codes = [0; CELLS + 1];
     for (cell, code) in codes.iter_mut().enumerate() {
@@ -164,11 +140,7 @@ mod tests {
     /// The formula, rounded to the nearest code.
     fn reference(linear: f32) -> u8 {
         let linear = f64::from(linear).clamp(0.0, 1.0);
-        let encoded = if linear <= 0.0031308 {
-            12.92 * linear
-        } else {
-            1.055 * linear.powf(1.0 / 2.4) - 0.055
-        };
+        let encoded = if linear <= 0.0031308 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
         (encoded * 255.0).round() as u8
     }
 

@@ -17,11 +17,7 @@ enum Emitter {
     /// From one direction, from afar.
     Sun { direction: Triple },
     /// From a point, into all directions or into a cone.
-    Point {
-        position: Triple,
-        falloff: Falloff,
-        cone: Option<Cone>,
-    },
+    Point { position: Triple, falloff: Falloff, cone: Option<Cone> },
 }
 
 /// The cone of a spot light.
@@ -83,13 +79,7 @@ impl Lamp {
                     falloff: point.falloff,
                     cone: None,
                 };
-                (
-                    emitter,
-                    Some(point.position),
-                    point.color,
-                    point.intensity,
-                    point.shadow,
-                )
+                (emitter, Some(point.position), point.color, point.intensity, point.shadow)
             }
             Light::Spot(spot) => {
                 if !(spot.angle > 0.0 && spot.angle <= PI) {
@@ -132,11 +122,7 @@ impl Lamp {
                 _ => return Err("a sun must not be wider than 180 degrees"),
             },
         };
-        Ok(Self {
-            emitter,
-            power: scaled(color, intensity),
-            dimming,
-        })
+        Ok(Self { emitter, power: scaled(color, intensity), dimming })
     }
 
     /// The light that arrives at `point` if nothing stands in between; `None` if that is nothing at all.
@@ -144,17 +130,9 @@ impl Lamp {
     pub(crate) fn at(&self, point: Triple) -> Option<Incoming> {
         let (position, falloff, cone) = match self.emitter {
             Emitter::Sun { direction } => {
-                return Some(Incoming {
-                    direction,
-                    distance: f32::INFINITY,
-                    light: self.power,
-                });
+                return Some(Incoming { direction, distance: f32::INFINITY, light: self.power });
             }
-            Emitter::Point {
-                position,
-                falloff,
-                cone,
-            } => (position, falloff, cone),
+            Emitter::Point { position, falloff, cone } => (position, falloff, cone),
         };
         let way = [position[0] - point[0], position[1] - point[1], position[2] - point[2]];
         let distance = length(way).max(NEAREST);
@@ -165,11 +143,7 @@ impl Lamp {
             Falloff::Polynomial([c0, c1, c2]) => 1.0 / (c0 + distance * (c1 + distance * c2)).max(NEAREST),
         };
         let share = cone.map_or(1.0, |cone| cone.share(-dot(direction, cone.axis)));
-        (share > 0.0).then(|| Incoming {
-            direction,
-            distance,
-            light: scaled(self.power, falloff * share),
-        })
+        (share > 0.0).then(|| Incoming { direction, distance, light: scaled(self.power, falloff * share) })
     }
 }
 
@@ -198,20 +172,13 @@ mod tests {
     }
 
     fn at(light: &Light, point: DVec3) -> f32 {
-        lamp(light)
-            .at((point - ORIGIN).as_vec3().to_array())
-            .map_or(0.0, |incoming| incoming.light[0])
+        lamp(light).at((point - ORIGIN).as_vec3().to_array()).map_or(0.0, |incoming| incoming.light[0])
     }
 
     #[test]
     fn light_falls_off_as_told() {
         let at_distance_4 = |falloff| {
-            let point = Point {
-                position: DVec3::Z * 3.0,
-                intensity: 8.0,
-                falloff,
-                ..Point::default()
-            };
+            let point = Point { position: DVec3::Z * 3.0, intensity: 8.0, falloff, ..Point::default() };
             at(&Light::Point(point), -DVec3::Z)
         };
         assert_eq!(at_distance_4(Falloff::None), 8.0);
@@ -222,13 +189,8 @@ mod tests {
 
     #[test]
     fn a_point_light_shines_from_where_it_is() {
-        let light = Light::Point(Point {
-            position: DVec3::new(3.0, 4.0, 0.0),
-            ..Point::default()
-        });
-        let incoming = lamp(&light)
-            .at((DVec3::ZERO - ORIGIN).as_vec3().to_array())
-            .expect("light");
+        let light = Light::Point(Point { position: DVec3::new(3.0, 4.0, 0.0), ..Point::default() });
+        let incoming = lamp(&light).at((DVec3::ZERO - ORIGIN).as_vec3().to_array()).expect("light");
         assert!((incoming.distance - 5.0).abs() < 1e-6);
         assert!((incoming.direction[0] - 0.6).abs() < 1e-6 && (incoming.direction[1] - 0.8).abs() < 1e-6);
         let own = lamp(&light).at((DVec3::new(3.0, 4.0, 0.0) - ORIGIN).as_vec3().to_array());
@@ -245,40 +207,20 @@ mod tests {
             falloff: Falloff::None,
             ..Spot::default()
         };
-        let light = |softness| {
-            Light::Spot(Spot {
-                softness,
-                ..spot.clone()
-            })
-        };
+        let light = |softness| Light::Spot(Spot { softness, ..spot.clone() });
         let degrees = |angle: f64| DVec3::new(angle.to_radians().tan(), 0.0, 0.0);
         assert_eq!(at(&light(0.5), degrees(22.0)), 1.0);
         assert_eq!(at(&light(0.5), degrees(45.5)), 0.0);
         let middle = (22.5f64.to_radians().cos() + 45f64.to_radians().cos()) / 2.0;
         assert!((at(&light(0.5), degrees(middle.acos().to_degrees())) - 0.5).abs() < 1e-3);
-        assert_eq!(
-            [at(&light(0.0), degrees(44.9)), at(&light(0.0), degrees(45.1))],
-            [1.0, 0.0]
-        );
+        assert_eq!([at(&light(0.0), degrees(44.9)), at(&light(0.0), degrees(45.1))], [1.0, 0.0]);
         assert_eq!(at(&light(0.5), DVec3::Z * 2.0), 0.0, "nothing shines backwards");
     }
 
     #[test]
     fn shadows_become_a_dimming() {
-        let sun = |shadow| {
-            lamp(&Light::Sun(Sun {
-                shadow,
-                ..Sun::default()
-            }))
-            .dimming
-        };
-        let point = |shadow| {
-            lamp(&Light::Point(Point {
-                shadow,
-                ..Point::default()
-            }))
-            .dimming
-        };
+        let sun = |shadow| lamp(&Light::Sun(Sun { shadow, ..Sun::default() })).dimming;
+        let point = |shadow| lamp(&Light::Point(Point { shadow, ..Point::default() })).dimming;
         assert_eq!(sun(Shadow::None), Dimming::None);
         assert_eq!(sun(Shadow::Hardness(8.0)), Dimming::Sharpness(8.0));
         assert_eq!(sun(Shadow::Hardness(f32::INFINITY)), Dimming::Hard);
@@ -291,34 +233,12 @@ mod tests {
 
     #[test]
     fn impossible_lights_are_refused() {
-        let sun = Sun {
-            direction: DVec3::ZERO,
-            ..Sun::default()
-        };
-        let dark = Sun {
-            shadow: Shadow::Hardness(0.0),
-            ..Sun::default()
-        };
-        let spot = Spot {
-            position: DVec3::ONE,
-            target: DVec3::ONE,
-            ..Spot::default()
-        };
-        let wide = Spot {
-            angle: 4.0,
-            ..Spot::default()
-        };
-        let lost = Point {
-            position: DVec3::NAN,
-            ..Point::default()
-        };
-        for light in [
-            Light::Sun(sun),
-            Light::Sun(dark),
-            Light::Spot(spot),
-            Light::Spot(wide),
-            Light::Point(lost),
-        ] {
+        let sun = Sun { direction: DVec3::ZERO, ..Sun::default() };
+        let dark = Sun { shadow: Shadow::Hardness(0.0), ..Sun::default() };
+        let spot = Spot { position: DVec3::ONE, target: DVec3::ONE, ..Spot::default() };
+        let wide = Spot { angle: 4.0, ..Spot::default() };
+        let lost = Point { position: DVec3::NAN, ..Point::default() };
+        for light in [Light::Sun(sun), Light::Sun(dark), Light::Spot(spot), Light::Spot(wide), Light::Point(lost)] {
             assert!(Lamp::new(&light, DVec3::ZERO, |_| 1.0).is_err(), "{light:?}");
         }
     }

@@ -127,25 +127,12 @@ impl March {
     #[cold]
     fn grow(&mut self) {
         let length = (self.id.len() * 2).max(256);
-        let Self {
-            id, steps, moved, kept, ..
-        } = self;
+        let Self { id, steps, moved, kept, .. } = self;
         for numbers in [id, steps, kept] {
             numbers.resize(length, 0);
         }
         moved.resize(length, false);
-        let Self {
-            origin,
-            direction,
-            t,
-            end,
-            base,
-            slope,
-            sharpness,
-            factor,
-            before,
-            ..
-        } = self;
+        let Self { origin, direction, t, end, base, slope, sharpness, factor, before, .. } = self;
         for numbers in origin.iter_mut().chain(direction).chain([t, end, base, slope]) {
             numbers.resize(length, 0.0);
         }
@@ -191,11 +178,7 @@ impl March {
                 }
             }
             let [x, y, z] = &self.point;
-            let points = Points {
-                x: &x[..count],
-                y: &y[..count],
-                z: &z[..count],
-            };
+            let points = Points { x: &x[..count], y: &y[..count], z: &z[..count] };
             field.values(points, &mut self.value[..count]);
             evaluations += count as u64;
             if advance(self, pace) * IDLE_SHARE >= count {
@@ -249,11 +232,7 @@ impl March {
             let ratio = least / sharpness[ray];
             let safe = (clearance - t[ray] * ratio) / (1.0 + ratio);
             let is_steady = here >= before[ray] * STEADY;
-            let short = if is_steady {
-                clearance
-            } else {
-                clearance * SHORTEST_STEP
-            };
+            let short = if is_steady { clearance } else { clearance * SHORTEST_STEP };
             let step = if safe > short { safe } else { short };
             factor[ray] = if goes { least } else { factor[ray] };
             before[ray] = if goes { here } else { before[ray] };
@@ -282,32 +261,11 @@ impl March {
             } else {
                 Fate::Exhausted
             };
-            let factor = if fate == Fate::Hit || factor < NEGLIGIBLE {
-                0.0
-            } else {
-                factor
-            };
-            ends.push(End {
-                id: self.id[ray],
-                fate,
-                t,
-                value,
-                steps: self.steps[ray],
-                factor,
-            });
+            let factor = if fate == Fate::Hit || factor < NEGLIGIBLE { 0.0 } else { factor };
+            ends.push(End { id: self.id[ray], fate, t, value, steps: self.steps[ray], factor });
         }
         // Buffer by buffer, since each fits the first-level cache and all of them together do not.
-        let Self {
-            id,
-            steps,
-            origin,
-            direction,
-            t,
-            end,
-            base,
-            slope,
-            ..
-        } = self;
+        let Self { id, steps, origin, direction, t, end, base, slope, .. } = self;
         let places = &self.kept[..kept];
         pack(id, places);
         pack(steps, places);

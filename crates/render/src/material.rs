@@ -43,29 +43,10 @@ impl Surface {
     pub(crate) fn of(material: &Material, point: DVec3, footprint: &Footprint) -> Self {
         let color = match material.color {
             Pattern::Solid(color) => color,
-            Pattern::Checker {
-                colors: [even, odd],
-                size,
-            } => mix(even, odd, odd_share(point, size, footprint)),
+            Pattern::Checker { colors: [even, odd], size } => mix(even, odd, odd_share(point, size, footprint)),
         };
-        let &Material {
-            emissive,
-            ambient,
-            diffuse,
-            specular,
-            exponent,
-            model,
-            ..
-        } = material;
-        Self {
-            color,
-            emissive,
-            ambient,
-            diffuse,
-            specular,
-            exponent,
-            model,
-        }
+        let &Material { emissive, ambient, diffuse, specular, exponent, model, .. } = material;
+        Self { color, emissive, ambient, diffuse, specular, exponent, model }
     }
 
     /// Moves all channels towards those of `other`, by a share from 0 to 1. The model is a matter of kind, not of
@@ -180,12 +161,7 @@ mod tests {
     }
 
     fn sharp(uncertainty: f32) -> Footprint {
-        Footprint {
-            width: 0.0,
-            normal: UP,
-            viewer: UP,
-            uncertainty,
-        }
+        Footprint { width: 0.0, normal: UP, viewer: UP, uncertainty }
     }
 
     #[test]
@@ -218,10 +194,7 @@ mod tests {
     #[test]
     fn checkers_alternate_and_do_not_flicker_on_the_border_of_cells() {
         let colors = [[1.0; 3], [0.0; 3]];
-        let material = Material {
-            color: Pattern::Checker { colors, size: 0.5 },
-            ..Material::default()
-        };
+        let material = Material { color: Pattern::Checker { colors, size: 0.5 }, ..Material::default() };
         let at = |x: f64, y: f64, z: f64| Surface::of(&material, DVec3::new(x, y, z), &sharp(1e-5)).color[0];
         assert_eq!([at(0.1, 0.1, 0.1), at(0.6, 0.1, 0.1)], [1.0, 0.0]);
         assert_eq!([at(0.6, 0.6, 0.1), at(0.6, 0.6, 0.6)], [1.0, 0.0]);
@@ -237,12 +210,7 @@ mod tests {
         // Points of the pattern spread over the box around the footprint, seen at 60 degrees along x.
         let viewer = [0.75f32.sqrt(), 0.0, 0.5];
         for width in [0.01f32, 0.2, 0.7, 3.0] {
-            let footprint = Footprint {
-                width,
-                normal: UP,
-                viewer,
-                uncertainty: 0.0,
-            };
+            let footprint = Footprint { width, normal: UP, viewer, uncertainty: 0.0 };
             let [along, across, up] = footprint.extents();
             assert!((along / width - 2.0).abs() < 1e-5 && (across / width - 1.0).abs() < 1e-5);
             assert_eq!(up, 0.0);
@@ -266,14 +234,7 @@ mod tests {
 
     #[test]
     fn mixing_ends_at_either_material() {
-        let (a, b) = (
-            plain(Model::Phong),
-            Surface {
-                exponent: 2.0,
-                color: [0.0; 3],
-                ..plain(Model::BlinnPhong)
-            },
-        );
+        let (a, b) = (plain(Model::Phong), Surface { exponent: 2.0, color: [0.0; 3], ..plain(Model::BlinnPhong) });
         for (share, expected) in [(0.0, a), (1.0, b)] {
             let mut mixed = a;
             mixed.mix(&b, share);

@@ -79,15 +79,7 @@ pub enum OptionsError {
 
 impl Default for Options {
     fn default() -> Self {
-        Self {
-            width: 640,
-            height: 360,
-            samples: 16,
-            crop: None,
-            threads: None,
-            level: None,
-            tile: 32,
-        }
+        Self { width: 640, height: 360, samples: 16, crop: None, threads: None, level: None, tile: 32 }
     }
 }
 
@@ -95,12 +87,7 @@ impl Options {
     /// The options a scene asks for.
     pub fn of(scene: &Scene) -> Self {
         let picture = &scene.picture;
-        Self {
-            width: picture.width,
-            height: picture.height,
-            samples: picture.samples,
-            ..Self::default()
-        }
+        Self { width: picture.width, height: picture.height, samples: picture.samples, ..Self::default() }
     }
 
     /// The part of the frame that will be computed.
@@ -121,12 +108,7 @@ impl Options {
         if let Some(threads) = self.threads.filter(|&threads| threads == 0 || threads > MAX_THREADS) {
             return Err(OptionsError::Threads(threads));
         }
-        let region = self.crop.unwrap_or(Rect {
-            x: 0,
-            y: 0,
-            width,
-            height,
-        });
+        let region = self.crop.unwrap_or(Rect { x: 0, y: 0, width, height });
         let fits =
             |start: u32, size: u32, full: u32| size > 0 && start.checked_add(size).is_some_and(|end| end <= full);
         if !fits(region.x, region.width, width) || !fits(region.y, region.height, height) {
@@ -140,9 +122,7 @@ impl Options {
 
     /// How many threads will be started for `tiles` tiles.
     pub(crate) fn threads_for(&self, tiles: usize) -> usize {
-        let wanted = self
-            .threads
-            .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, Into::into));
+        let wanted = self.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, Into::into));
         wanted.min(tiles).clamp(1, MAX_THREADS)
     }
 }
@@ -173,25 +153,16 @@ impl fmt::Display for OptionsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Size { width, height } => {
-                write!(
-                    f,
-                    "a picture of {width} x {height} pixels: each side must be 1 to {MAX_SIDE}"
-                )
+                write!(f, "a picture of {width} x {height} pixels: each side must be 1 to {MAX_SIDE}")
             }
             Self::Pixels(pixels) => {
-                write!(
-                    f,
-                    "{pixels} pixels are more than the {MAX_PIXELS} that are computed at once"
-                )
+                write!(f, "{pixels} pixels are more than the {MAX_PIXELS} that are computed at once")
             }
             Self::Samples(samples) => {
                 write!(f, "{samples} samples per pixel: there must be 1 to {MAX_SAMPLES}")
             }
             Self::Crop(Rect { x, y, width, height }) => {
-                write!(
-                    f,
-                    "the crop of {width} x {height} pixels at ({x}, {y}) is empty or leaves the frame"
-                )
+                write!(f, "the crop of {width} x {height} pixels at ({x}, {y}) is empty or leaves the frame")
             }
             Self::Threads(threads) => write!(f, "{threads} threads: there must be 1 to {MAX_THREADS}"),
             Self::Tile(tile) => write!(f, "tiles of {tile} pixels: their side must be 1 to {MAX_TILE}"),
@@ -230,83 +201,18 @@ mod tests {
 
     #[test]
     fn impossible_options_are_refused() {
-        let good = Options {
-            width: 20,
-            height: 10,
-            ..Options::default()
-        };
-        assert_eq!(
-            good.region(),
-            Ok(Rect {
-                x: 0,
-                y: 0,
-                width: 20,
-                height: 10
-            })
-        );
-        let rect = Rect {
-            x: 15,
-            y: 0,
-            width: 6,
-            height: 10,
-        };
-        let wraps = Rect {
-            x: u32::MAX,
-            y: 0,
-            width: 6,
-            height: 10,
-        };
+        let good = Options { width: 20, height: 10, ..Options::default() };
+        assert_eq!(good.region(), Ok(Rect { x: 0, y: 0, width: 20, height: 10 }));
+        let rect = Rect { x: 15, y: 0, width: 6, height: 10 };
+        let wraps = Rect { x: u32::MAX, y: 0, width: 6, height: 10 };
         for (bad, error) in [
-            (
-                Options {
-                    width: 0,
-                    ..good.clone()
-                },
-                OptionsError::Size { width: 0, height: 10 },
-            ),
-            (
-                Options {
-                    samples: 0,
-                    ..good.clone()
-                },
-                OptionsError::Samples(0),
-            ),
-            (
-                Options {
-                    tile: 0,
-                    ..good.clone()
-                },
-                OptionsError::Tile(0),
-            ),
-            (
-                Options {
-                    threads: Some(0),
-                    ..good.clone()
-                },
-                OptionsError::Threads(0),
-            ),
-            (
-                Options {
-                    crop: Some(rect),
-                    ..good.clone()
-                },
-                OptionsError::Crop(rect),
-            ),
-            (
-                Options {
-                    crop: Some(wraps),
-                    ..good.clone()
-                },
-                OptionsError::Crop(wraps),
-            ),
-            (
-                Options {
-                    width: 1 << 17,
-                    height: 1 << 17,
-                    ..good.clone()
-                },
-                OptionsError::Pixels(1 << 34),
-            ),
+            (Options { width: 0, ..good.clone() }, OptionsError::Size { width: 0, height: 10 }),
+            (Options { samples: 0, ..good.clone() }, OptionsError::Samples(0)),
+            (Options { tile: 0, ..good.clone() }, OptionsError::Tile(0)),
+            (Options { threads: Some(0), ..good.clone() }, OptionsError::Threads(0)),
+            (Options { crop: Some(rect), ..good.clone() }, OptionsError::Crop(rect)),
+            (Options { crop: Some(wraps), ..good.clone() }, OptionsError::Crop(wraps)),
+            (Options { width: 1 << 17, height: 1 << 17, ..good.clone() }, OptionsError::Pixels(1 << 34)),
         ] {
             assert_eq!(bad.region(), Err(error), "{error}");
         }

@@ -123,9 +123,8 @@ impl<'s> Renderer<'s> {
                 };
                 exact.push(Exact { ray, paint, structure });
             } else if analysis.extent != Extent::Empty {
-                let safe = safe_scale(&analysis.contract).ok_or_else(|| PrepareError::Unmarchable {
-                    object: object.name.clone(),
-                })?;
+                let safe = safe_scale(&analysis.contract)
+                    .ok_or_else(|| PrepareError::Unmarchable { object: object.name.clone() })?;
                 scale = scale.min(safe);
                 bounds = hull(bounds, analysis.extent);
                 marched.push(index);
@@ -177,27 +176,19 @@ impl<'s> Renderer<'s> {
 
     /// The scene's camera, or the one that frames it in a picture of this size.
     pub fn camera(&self, width: u32, height: u32) -> Camera {
-        self.scene
-            .camera
-            .clone()
-            .unwrap_or_else(|| framed(self.extent, width, height))
+        self.scene.camera.clone().unwrap_or_else(|| framed(self.extent, width, height))
     }
 }
 
 /// The largest factor that makes field values safe steps.
 fn safe_scale(contract: &Contract) -> Option<f64> {
     let by_slope = contract.lipschitz.filter(|&slope| slope > 0.0).map(|slope| 1.0 / slope);
-    if contract.is_safe_step() {
-        Some(by_slope.map_or(1.0, |scale| scale.max(1.0)))
-    } else {
-        by_slope
-    }
+    if contract.is_safe_step() { Some(by_slope.map_or(1.0, |scale| scale.max(1.0))) } else { by_slope }
 }
 
 fn material(scene: &Scene, id: Option<MaterialId>) -> &Material {
     static PLAIN: std::sync::LazyLock<Material> = std::sync::LazyLock::new(Material::default);
-    id.and_then(|MaterialId(index)| scene.materials.get(index as usize))
-        .map_or(&*PLAIN, |(_, material)| material)
+    id.and_then(|MaterialId(index)| scene.materials.get(index as usize)).map_or(&*PLAIN, |(_, material)| material)
 }
 
 fn hull(a: Extent, b: Extent) -> Extent {
@@ -276,12 +267,8 @@ impl<'r> Frame<'r> {
         let program = |structure: &Structure| structure.program(origin);
         let everything = renderer.everything.as_ref().map(program);
         let marched = renderer.marched.as_ref().map(program);
-        let clearance = |place: DVec3| {
-            everything
-                .as_ref()
-                .or(marched.as_ref())
-                .map_or(f64::INFINITY, |field| field.value(place))
-        };
+        let clearance =
+            |place: DVec3| everything.as_ref().or(marched.as_ref()).map_or(f64::INFINITY, |field| field.value(place));
         let lamps = scene
             .lights
             .iter()
@@ -320,10 +307,7 @@ impl<'r> Frame<'r> {
                 Extent::Finite(bounds) => {
                     let far = bounds.min.abs().max(bounds.max.abs()).max_element();
                     let margin = BOX_MARGIN * bounds.size().max_element() + ROUNDING * far;
-                    Some(Aabb {
-                        min: bounds.min - margin,
-                        max: bounds.max + margin,
-                    })
+                    Some(Aabb { min: bounds.min - margin, max: bounds.max + margin })
                 }
                 Extent::Empty | Extent::Unbounded => None,
             },
@@ -356,9 +340,7 @@ impl OcclusionSamples {
     fn new(strength: f64, reach: f64) -> Self {
         let height = |sample: usize| reach * (sample + 1) as f64 / OCCLUSION_SAMPLES as f64;
         let weight = |sample: usize| 0.5f64.powi(sample as i32 + 1);
-        let all: f64 = (0..OCCLUSION_SAMPLES)
-            .map(|sample| height(sample) * weight(sample))
-            .sum();
+        let all: f64 = (0..OCCLUSION_SAMPLES).map(|sample| height(sample) * weight(sample)).sum();
         let strength = if all > 0.0 { strength / all } else { 0.0 };
         Self {
             heights: std::array::from_fn(|sample| height(sample) as f32),
@@ -380,10 +362,7 @@ impl fmt::Display for PrepareError {
                 Ok(())
             }
             Self::Unmarchable { object } => {
-                write!(
-                    f,
-                    "the field of `{object}` has no known scale, so no step along a ray is safe"
-                )
+                write!(f, "the field of `{object}` has no known scale, so no step along a ray is safe")
             }
             Self::Camera(fault) => fault.fmt(f),
             Self::Light { index, fault } => write!(f, "light {index}: {fault}"),

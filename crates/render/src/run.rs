@@ -124,10 +124,7 @@ impl Renderer<'_> {
             }
         })?;
         stats.times.wall = start.elapsed();
-        Ok(Rendered {
-            image: Image::new(region.width, region.height, pixels),
-            stats,
-        })
+        Ok(Rendered { image: Image::new(region.width, region.height, pixels), stats })
     }
 
     /// Computes what lies at the centre of each pixel, other than its colour. The samples of the options count for
@@ -138,13 +135,7 @@ impl Renderer<'_> {
     pub fn layers(&self, options: &Options, progress: &dyn Progress) -> Result<(Layers, Stats), RenderError> {
         let start = Instant::now();
         let region = options.region()?;
-        let frame = Frame::new(
-            self,
-            &Options {
-                samples: 1,
-                ..options.clone()
-            },
-        )?;
+        let frame = Frame::new(self, &Options { samples: 1, ..options.clone() })?;
         let mut pixels = filled(region, Layers::NOTHING)?;
         let mut stats = in_tiles(&frame, options, region, progress, &mut pixels, || {
             let frame = &frame;
@@ -205,11 +196,7 @@ where
     let threads = options.threads_for(tiles.len());
     let next = AtomicUsize::new(0);
     let blank = pixels[0];
-    let shared = Mutex::new(Shared {
-        pixels,
-        done: 0,
-        stats: Stats::default(),
-    });
+    let shared = Mutex::new(Shared { pixels, done: 0, stats: Stats::default() });
     let work = || {
         let start = Instant::now();
         let mut tracer = Tracer::new(frame);

@@ -52,23 +52,14 @@ impl Tracer<'_> {
         for (hit, &openness) in self.hits.iter().zip(&memory.openness) {
             let around = mix(ambient.ground, ambient.sky, 0.5 + 0.5 * hit.normal[2]);
             let surface = &hit.surface;
-            colors[hit.ray as usize] = add_scaled(
-                surface.emissive,
-                surface.ambient * openness,
-                times(surface.color, around),
-            );
+            colors[hit.ray as usize] =
+                add_scaled(surface.emissive, surface.ambient * openness, times(surface.color, around));
         }
         for lamp in &self.frame.lamps {
             self.find_lit(lamp, &mut memory.lit);
             self.cast_shadows(lamp, &mut memory.lit);
             for lit in memory.lit.iter().filter(|lit| lit.factor > 0.0) {
-                let Hit {
-                    ray,
-                    normal,
-                    viewer,
-                    surface,
-                    ..
-                } = &self.hits[lit.hit as usize];
+                let Hit { ray, normal, viewer, surface, .. } = &self.hits[lit.hit as usize];
                 let Incoming { direction, light, .. } = lit.incoming;
                 let color = &mut colors[*ray as usize];
                 let reflected = surface.reflected(light, *normal, *viewer, direction, lit.n_dot_l);
@@ -115,12 +106,7 @@ impl Tracer<'_> {
             };
             let n_dot_l = dot(hit.normal, incoming.direction);
             if n_dot_l > 0.0 {
-                lit.push(Lit {
-                    hit: index as u32,
-                    incoming,
-                    n_dot_l,
-                    factor: 1.0,
-                });
+                lit.push(Lit { hit: index as u32, incoming, n_dot_l, factor: 1.0 });
             }
         }
     }
@@ -133,9 +119,7 @@ impl Tracer<'_> {
         self.stats.rays.shadow += lit.len() as u64;
         for (id, lit) in lit.iter_mut().enumerate() {
             let hit = &self.hits[lit.hit as usize];
-            let Incoming {
-                direction, distance, ..
-            } = lit.incoming;
+            let Incoming { direction, distance, .. } = lit.incoming;
             let origin = add_scaled(hit.position, SHADOW_START * hit.uncertainty, hit.normal);
             let ray = Ray {
                 origin: frame.origin + DVec3::from(origin.map(f64::from)),
@@ -163,10 +147,7 @@ impl Tracer<'_> {
                 origin,
                 direction,
                 span: [near, far],
-                tolerance: [
-                    (SHADOW_HIT * hit.tolerance + exactness) * hit.gradient,
-                    rounding(1.0) * hit.gradient,
-                ],
+                tolerance: [(SHADOW_HIT * hit.tolerance + exactness) * hit.gradient, rounding(1.0) * hit.gradient],
                 steps: 0,
                 sharpness: sharpness.unwrap_or(1.0),
             });
@@ -189,12 +170,10 @@ impl Tracer<'_> {
 impl Frame<'_> {
     /// Whether an exact object lies on the ray before `distance`.
     fn is_shadowed_exactly(&self, ray: &Ray, distance: f32) -> bool {
-        self.renderer.exact.iter().any(|exact| {
-            exact
-                .ray
-                .hit(ray.origin, ray.direction)
-                .is_some_and(|t| t < f64::from(distance))
-        })
+        self.renderer
+            .exact
+            .iter()
+            .any(|exact| exact.ray.hit(ray.origin, ray.direction).is_some_and(|t| t < f64::from(distance)))
     }
 
     /// The part of a shadow ray on which marched objects can dim it.

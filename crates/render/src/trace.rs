@@ -169,13 +169,7 @@ impl<'f> Tracer<'f> {
         if start.span[1] > 0.0 {
             self.march.push(&start);
         }
-        self.rays.push(CameraRay {
-            ray,
-            exact,
-            begin,
-            start,
-            steps: 0,
-        });
+        self.rays.push(CameraRay { ray, exact, begin, start, steps: 0 });
         self.stats.rays.camera += 1;
     }
 
@@ -212,8 +206,7 @@ impl<'f> Tracer<'f> {
                     }
                 };
                 if lands {
-                    self.cloud
-                        .push(add_scaled(ray.start.origin, end.t, ray.start.direction));
+                    self.cloud.push(add_scaled(ray.start.origin, end.t, ray.start.direction));
                 }
                 lands
             });
@@ -226,29 +219,18 @@ impl<'f> Tracer<'f> {
                 let [base, growth] = start.tolerance;
                 let limit = base + growth * end.t;
                 // Rounding errors of values do not shrink with the slope.
-                let finer = [
-                    (base * in_values).max(rounding(length(start.origin))),
-                    (growth * in_values).max(rounding(1.0)),
-                ];
+                let finer =
+                    [(base * in_values).max(rounding(length(start.origin))), (growth * in_values).max(rounding(1.0))];
                 let is_false = end.value > FALSE_HIT * limit * in_values && end.value > finer[0] + finer[1] * end.t;
                 if end.fate == Fate::Hit && is_false {
                     start.tolerance = finer;
-                    self.march.push(&Start {
-                        span: [end.t, start.span[1]],
-                        steps: end.steps,
-                        ..*start
-                    });
+                    self.march.push(&Start { span: [end.t, start.span[1]], steps: end.steps, ..*start });
                 } else {
                     if end.t == 0.0 && end.value < -limit {
                         self.stats.inside += 1;
                     }
                     let position = self.cloud.point_at(index);
-                    self.landings.push(Landing {
-                        ray: end.id,
-                        t: end.t,
-                        position,
-                        gradient,
-                    });
+                    self.landings.push(Landing { ray: end.id, t: end.t, position, gradient });
                 }
             }
             if self.march.is_empty() {
@@ -278,12 +260,9 @@ impl<'f> Tracer<'f> {
             let CameraRay { begin, start, .. } = &self.rays[landing.ray as usize];
             let share = |region: usize| self.shares.of(region)[index];
             let main = match asks_for_shares {
-                true => (1..paints.len()).fold(
-                    0,
-                    |best, region| {
-                        if share(region) > share(best) { region } else { best }
-                    },
-                ),
+                true => {
+                    (1..paints.len()).fold(0, |best, region| if share(region) > share(best) { region } else { best })
+                }
                 false => 0,
             };
             let viewer = start.direction.map(|x| -x);
@@ -298,12 +277,7 @@ impl<'f> Tracer<'f> {
             let distance = begin + f64::from(landing.t);
             let offset = length(landing.position);
             let uncertainty = frame.tolerance.at(distance, f64::from(offset))[0] as f32;
-            let footprint = Footprint {
-                width: frame.width_at(distance),
-                normal,
-                viewer,
-                uncertainty,
-            };
+            let footprint = Footprint { width: frame.width_at(distance), normal, viewer, uncertainty };
             let point = frame.origin + DVec3::from(landing.position.map(f64::from));
             let mut surface = Surface::of(paints[main].material, point, &footprint);
             if asks_for_shares {
@@ -417,19 +391,11 @@ impl Cloud {
     }
 
     fn gradient_at(&self, index: usize) -> Triple {
-        [
-            self.gradient[0][index],
-            self.gradient[1][index],
-            self.gradient[2][index],
-        ]
+        [self.gradient[0][index], self.gradient[1][index], self.gradient[2][index]]
     }
 
     fn points(point: &[Vec<f32>; 3]) -> Points<'_> {
-        Points {
-            x: &point[0],
-            y: &point[1],
-            z: &point[2],
-        }
+        Points { x: &point[0], y: &point[1], z: &point[2] }
     }
 
     /// Computes the field at the points and returns how many there are.

@@ -56,12 +56,7 @@ pub(crate) struct Ray {
 
 impl View {
     pub(crate) fn new(camera: &Camera, width: u32, height: u32) -> Result<Self, CameraError> {
-        let Camera {
-            eye,
-            target,
-            up,
-            projection,
-        } = *camera;
+        let Camera { eye, target, up, projection } = *camera;
         let view = target - eye;
         if !(eye.is_finite() && view.is_finite() && up.is_finite()) {
             return Err(CameraError::NotFinite);
@@ -89,15 +84,7 @@ impl View {
                 (DVec2::new(height * aspect, height) / 2.0, false)
             }
         };
-        Ok(Self {
-            eye,
-            right,
-            up: right.cross(forward),
-            forward,
-            half,
-            is_perspective,
-            size,
-        })
+        Ok(Self { eye, right, up: right.cross(forward), forward, half, is_perspective, size })
     }
 
     /// The ray through a point of the picture in raster coordinates.
@@ -106,15 +93,9 @@ impl View {
         let y = (1.0 - 2.0 * raster.y / self.size.y) * self.half.y;
         let offset = self.right * x + self.up * y;
         if self.is_perspective {
-            Ray {
-                origin: self.eye,
-                direction: (self.forward + offset).normalize(),
-            }
+            Ray { origin: self.eye, direction: (self.forward + offset).normalize() }
         } else {
-            Ray {
-                origin: self.eye + offset,
-                direction: self.forward,
-            }
+            Ray { origin: self.eye + offset, direction: self.forward }
         }
     }
 
@@ -126,11 +107,7 @@ impl View {
     /// The width of a pixel in the world: what it is everywhere, and what it gains per unit of distance.
     pub(crate) fn footprint(&self) -> (f64, f64) {
         let pixel = 2.0 * self.half.y / self.size.y;
-        if self.is_perspective {
-            (0.0, pixel)
-        } else {
-            (pixel, 0.0)
-        }
+        if self.is_perspective { (0.0, pixel) } else { (pixel, 0.0) }
     }
 }
 
@@ -149,18 +126,10 @@ pub(crate) fn framed(extent: Option<Aabb>, width: u32, height: u32) -> Camera {
     let back = DEFAULT_DIRECTION.normalize();
     let Some(extent) = extent.filter(|extent| extent.size().max_element() > 0.0) else {
         let target = extent.map_or(DVec3::ZERO, Aabb::center);
-        return Camera {
-            eye: target + back * DEFAULT_DISTANCE,
-            target,
-            ..Camera::default()
-        };
+        return Camera { eye: target + back * DEFAULT_DISTANCE, target, ..Camera::default() };
     };
     let target = extent.center();
-    let camera = Camera {
-        eye: target + back,
-        target,
-        ..Camera::default()
-    };
+    let camera = Camera { eye: target + back, target, ..Camera::default() };
     let Ok(view) = View::new(&camera, width, height) else {
         return camera;
     };
@@ -175,10 +144,7 @@ pub(crate) fn framed(extent: Option<Aabb>, width: u32, height: u32) -> Camera {
             corner.dot(back) + aside.max_element()
         })
         .fold(0.0, f64::max);
-    Camera {
-        eye: target + back * distance,
-        ..camera
-    }
+    Camera { eye: target + back * distance, ..camera }
 }
 
 /// The part of a ray inside a box, as distances from its origin.
@@ -216,12 +182,7 @@ mod tests {
     fn fields_of_view_reach_the_edges_of_their_axis() {
         for (axis, edge) in [(FovAxis::Vertical, [100.0, 0.0]), (FovAxis::Horizontal, [0.0, 50.0])] {
             let projection = Projection::Perspective { fov: 1.0, axis };
-            let camera = Camera {
-                eye: DVec3::ZERO,
-                target: DVec3::Y,
-                projection,
-                ..Camera::default()
-            };
+            let camera = Camera { eye: DVec3::ZERO, target: DVec3::Y, projection, ..Camera::default() };
             let view = View::new(&camera, 200, 100).expect("a camera");
             let ray = view.ray(DVec2::from(edge));
             let angle = ray.direction.angle_between(DVec3::Y);
@@ -235,17 +196,9 @@ mod tests {
     #[test]
     fn an_orthographic_view_is_as_high_as_told() {
         let projection = Projection::Orthographic { height: 3.0 };
-        let camera = Camera {
-            eye: DVec3::ZERO,
-            target: DVec3::Y,
-            projection,
-            ..Camera::default()
-        };
+        let camera = Camera { eye: DVec3::ZERO, target: DVec3::Y, projection, ..Camera::default() };
         let view = View::new(&camera, 200, 100).expect("a camera");
-        assert!(close(
-            view.ray(DVec2::new(200.0, 100.0)).origin,
-            DVec3::new(3.0, 0.0, -1.5)
-        ));
+        assert!(close(view.ray(DVec2::new(200.0, 100.0)).origin, DVec3::new(3.0, 0.0, -1.5)));
         assert_eq!(view.footprint(), (0.03, 0.0));
     }
 
@@ -257,12 +210,7 @@ mod tests {
             (DVec3::Y, DVec3::Y, DVec3::X),
             (DVec3::Y, DVec3::ZERO, DVec3::X),
         ] {
-            let camera = Camera {
-                eye: DVec3::ZERO,
-                target,
-                up,
-                ..Camera::default()
-            };
+            let camera = Camera { eye: DVec3::ZERO, target, up, ..Camera::default() };
             let view = View::new(&camera, 10, 10).expect("a camera");
             assert!(close(view.right, right), "{target} {up}: {}", view.right);
         }
@@ -271,39 +219,12 @@ mod tests {
     #[test]
     fn impossible_cameras_are_refused() {
         let good = Camera::default();
-        let lens = |projection| Camera {
-            projection,
-            ..good.clone()
-        };
+        let lens = |projection| Camera { projection, ..good.clone() };
         for (bad, error) in [
-            (
-                Camera {
-                    target: good.eye,
-                    ..good.clone()
-                },
-                CameraError::NoDirection,
-            ),
-            (
-                Camera {
-                    eye: DVec3::NAN,
-                    ..good.clone()
-                },
-                CameraError::NotFinite,
-            ),
-            (
-                Camera {
-                    up: DVec3::INFINITY,
-                    ..good.clone()
-                },
-                CameraError::NotFinite,
-            ),
-            (
-                lens(Projection::Perspective {
-                    fov: PI,
-                    axis: FovAxis::Vertical,
-                }),
-                CameraError::FieldOfView,
-            ),
+            (Camera { target: good.eye, ..good.clone() }, CameraError::NoDirection),
+            (Camera { eye: DVec3::NAN, ..good.clone() }, CameraError::NotFinite),
+            (Camera { up: DVec3::INFINITY, ..good.clone() }, CameraError::NotFinite),
+            (lens(Projection::Perspective { fov: PI, axis: FovAxis::Vertical }), CameraError::FieldOfView),
             (lens(Projection::Orthographic { height: 0.0 }), CameraError::Height),
         ] {
             assert_eq!(View::new(&bad, 10, 10).err(), Some(error));

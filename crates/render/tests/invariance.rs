@@ -14,14 +14,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 /// Something of everything: planes, blends, all lights, all shadows, occlusion, patterns.
 fn rich() -> Scene {
     let mut scene = Scene {
-        ambient: Ambient {
-            sky: [0.3, 0.4, 0.5],
-            ground: [0.1; 3],
-        },
-        background: Background::Gradient {
-            top: [0.2, 0.4, 0.9],
-            bottom: [1.0; 3],
-        },
+        ambient: Ambient { sky: [0.3, 0.4, 0.5], ground: [0.1; 3] },
+        background: Background::Gradient { top: [0.2, 0.4, 0.9], bottom: [1.0; 3] },
         occlusion: Some(Occlusion::default()),
         ..dark()
     };
@@ -32,88 +26,39 @@ fn rich() -> Scene {
             cuboid([0.8, 0.8, 0.6]).at([0.4, -0.2, 0.3]),
         ],
     );
-    let checker = Pattern::Checker {
-        colors: [[0.9; 3], [0.2, 0.3, 0.3]],
-        size: 0.5,
-    };
+    let checker = Pattern::Checker { colors: [[0.9; 3], [0.2, 0.3, 0.3]], size: 0.5 };
     add(&mut scene, blend, Material::default());
-    add(
-        &mut scene,
-        sphere(0.5).at([-1.0, -0.6, 0.5]) - cuboid([1.0, 1.0, 0.2]).at([-1.0, -0.6, 0.6]),
-        chalk(),
-    );
-    add(
-        &mut scene,
-        plane([0.0, 0.0, 1.0]),
-        Material {
-            color: checker,
-            ..Material::default()
-        },
-    );
+    add(&mut scene, sphere(0.5).at([-1.0, -0.6, 0.5]) - cuboid([1.0, 1.0, 0.2]).at([-1.0, -0.6, 0.6]), chalk());
+    add(&mut scene, plane([0.0, 0.0, 1.0]), Material { color: checker, ..Material::default() });
     let shadow = Shadow::Hardness(8.0);
-    scene.lights.push(Light::Sun(Sun {
-        direction: DVec3::new(1.0, -1.0, 2.0),
-        shadow,
-        ..Sun::default()
-    }));
+    scene.lights.push(Light::Sun(Sun { direction: DVec3::new(1.0, -1.0, 2.0), shadow, ..Sun::default() }));
     scene.lights.push(Light::Point(Point {
         position: DVec3::new(-2.0, -2.0, 3.0),
         intensity: 4.0,
         shadow: Shadow::Clearance { angle: None },
         ..Point::default()
     }));
-    scene.lights.push(Light::Spot(Spot {
-        position: DVec3::new(2.0, -3.0, 3.0),
-        intensity: 9.0,
-        ..Spot::default()
-    }));
+    scene.lights.push(Light::Spot(Spot { position: DVec3::new(2.0, -3.0, 3.0), intensity: 9.0, ..Spot::default() }));
     scene
 }
 
 fn bits(scene: &Scene, options: &Options) -> Vec<[u32; 3]> {
-    picture(scene, options)
-        .image
-        .pixels()
-        .iter()
-        .map(|c| c.map(f32::to_bits))
-        .collect()
+    picture(scene, options).image.pixels().iter().map(|c| c.map(f32::to_bits)).collect()
 }
 
 #[test]
 fn threads_tiles_and_instruction_sets_change_nothing() {
     let scene = rich();
-    let base = Options {
-        samples: 3,
-        threads: Some(1),
-        ..options(75, 50)
-    };
+    let base = Options { samples: 3, threads: Some(1), ..options(75, 50) };
     let expected = bits(&scene, &base);
     for threads in [2, 5] {
-        assert!(
-            bits(
-                &scene,
-                &Options {
-                    threads: Some(threads),
-                    ..base.clone()
-                }
-            ) == expected,
-            "{threads}"
-        );
+        assert!(bits(&scene, &Options { threads: Some(threads), ..base.clone() }) == expected, "{threads}");
     }
     for tile in [1, 7, 64, 1024] {
         assert!(bits(&scene, &Options { tile, ..base.clone() }) == expected, "{tile}");
     }
     for level in simd::available() {
-        assert!(
-            bits(
-                &scene,
-                &Options {
-                    level: Some(level),
-                    ..base.clone()
-                }
-            ) == expected,
-            "{level:?}"
-        );
+        assert!(bits(&scene, &Options { level: Some(level), ..base.clone() }) == expected, "{level:?}");
     }
 }
 
@@ -121,11 +66,7 @@ fn threads_tiles_and_instruction_sets_change_nothing() {
 fn counts_do_not_depend_on_threads() {
     let scene = rich();
     let counts = |threads| {
-        let options = Options {
-            samples: 2,
-            threads: Some(threads),
-            ..options(60, 40)
-        };
+        let options = Options { samples: 2, threads: Some(threads), ..options(60, 40) };
         let mut stats = picture(&scene, &options).stats;
         assert_eq!(stats.times.threads, threads as u64);
         assert!(stats.times.wall > std::time::Duration::ZERO);
@@ -142,39 +83,14 @@ fn counts_do_not_depend_on_threads() {
 #[test]
 fn a_crop_is_a_cut_of_the_whole() {
     let scene = rich();
-    let whole = Options {
-        samples: 4,
-        ..options(75, 50)
-    };
+    let whole = Options { samples: 4, ..options(75, 50) };
     let image = picture(&scene, &whole).image;
     for crop in [
-        Rect {
-            x: 0,
-            y: 0,
-            width: 75,
-            height: 50,
-        },
-        Rect {
-            x: 31,
-            y: 17,
-            width: 9,
-            height: 21,
-        },
-        Rect {
-            x: 74,
-            y: 49,
-            width: 1,
-            height: 1,
-        },
+        Rect { x: 0, y: 0, width: 75, height: 50 },
+        Rect { x: 31, y: 17, width: 9, height: 21 },
+        Rect { x: 74, y: 49, width: 1, height: 1 },
     ] {
-        let part = picture(
-            &scene,
-            &Options {
-                crop: Some(crop),
-                ..whole.clone()
-            },
-        )
-        .image;
+        let part = picture(&scene, &Options { crop: Some(crop), ..whole.clone() }).image;
         assert_eq!((part.width(), part.height()), (crop.width, crop.height));
         for y in 0..crop.height {
             for x in 0..crop.width {
@@ -188,29 +104,15 @@ fn a_crop_is_a_cut_of_the_whole() {
 #[test]
 fn more_samples_than_a_wave_holds_are_one_mean() {
     // A ball whose edge crosses the pixels, with so many samples that a pixel spans several waves.
-    let mut scene = Scene {
-        camera: Some(from_above(5.0, 4.0)),
-        ..dark()
-    };
-    scene.ambient = Ambient {
-        sky: [1.0; 3],
-        ground: [1.0; 3],
-    };
+    let mut scene = Scene { camera: Some(from_above(5.0, 4.0)), ..dark() };
+    scene.ambient = Ambient { sky: [1.0; 3], ground: [1.0; 3] };
     add(&mut scene, sphere(1.0), chalk());
-    let many = picture(
-        &scene,
-        &Options {
-            samples: 5000,
-            ..options(4, 4)
-        },
-    );
+    let many = picture(&scene, &Options { samples: 5000, ..options(4, 4) });
     assert_eq!(many.stats.rays.camera, 5000 * 16);
     // Each pixel is the mean of the disc under the filter's window, here by a fine grid over the window.
     let window = |x: f64| {
         let terms = [0.35875, 0.48829, 0.14128, 0.01168];
-        (0..4)
-            .map(|k| terms[k] * (std::f64::consts::TAU * k as f64 * x / 3.0).cos())
-            .sum::<f64>()
+        (0..4).map(|k| terms[k] * (std::f64::consts::TAU * k as f64 * x / 3.0).cos()).sum::<f64>()
     };
     for (x, y) in [(0, 0), (1, 0), (1, 1), (2, 1), (3, 3)] {
         let (mut inside, mut all) = (0.0, 0.0);
@@ -224,11 +126,7 @@ fn more_samples_than_a_wave_holds_are_one_mean() {
             }
         }
         let value = f64::from(many.image.pixel(x, y)[0]);
-        assert!(
-            (value - inside / all).abs() < 5e-3,
-            "({x}, {y}): {value} {}",
-            inside / all
-        );
+        assert!((value - inside / all).abs() < 5e-3, "({x}, {y}): {value} {}", inside / all);
     }
 }
 
@@ -238,14 +136,7 @@ fn a_renderer_can_be_used_again() {
     let renderer = Renderer::new(&scene).expect("a sound scene");
     let options = options(24, 16);
     let first = renderer.render(&options, &()).expect("a picture").image;
-    let other = renderer.render(
-        &Options {
-            width: 48,
-            height: 32,
-            ..options.clone()
-        },
-        &(),
-    );
+    let other = renderer.render(&Options { width: 48, height: 32, ..options.clone() }, &());
     assert_eq!(other.expect("a picture").image.width(), 48);
     assert_eq!(renderer.render(&options, &()).expect("a picture").image, first);
 }
@@ -260,11 +151,7 @@ fn progress_rises_to_the_end() {
         }
     }
     let heard = Heard::default();
-    let options = Options {
-        threads: Some(3),
-        tile: 8,
-        ..options(40, 30)
-    };
+    let options = Options { threads: Some(3), tile: 8, ..options(40, 30) };
     render(&rich(), &options, &heard).expect("a picture");
     let heard = heard.0.into_inner().expect("no panic");
     assert_eq!(heard.len(), 5 * 4);
@@ -290,14 +177,7 @@ fn cancelling_stops_and_yields_nothing() {
         }
     }
     let impatient = Impatient::default();
-    let options = Options {
-        threads: Some(2),
-        tile: 8,
-        ..options(400, 300)
-    };
-    assert!(matches!(
-        render(&rich(), &options, &impatient),
-        Err(RenderError::Cancelled)
-    ));
+    let options = Options { threads: Some(2), tile: 8, ..options(400, 300) };
+    assert!(matches!(render(&rich(), &options, &impatient), Err(RenderError::Cancelled)));
     assert!(impatient.0.into_inner() <= 2, "at most what was under way");
 }

@@ -21,10 +21,7 @@ const SIZE: (u32, u32) = (480, 480);
 const STRIDE: usize = 10;
 
 fn scene_with(light: Light) -> Scene {
-    let mut scene = Scene {
-        camera: Some(from_above(20.0, VIEW)),
-        ..dark()
-    };
+    let mut scene = Scene { camera: Some(from_above(20.0, VIEW)), ..dark() };
     scene.lights.push(light);
     add(&mut scene, sphere(RADIUS).at(CENTER), chalk());
     add(&mut scene, plane([0.0, 0.0, 1.0]), chalk());
@@ -62,10 +59,7 @@ fn compare_ground(light: Light, expected: impl Fn(DVec3) -> (f64, f64)) {
             let (light, factor) = expected(point);
             let value = f64::from(rendered.image.pixel(x, y)[0]) / light;
             assert!((0.0..=1.0 + 1e-4).contains(&value), "({x}, {y}): {value}");
-            assert!(
-                (value - factor).abs() <= MISSED * factor + 4e-3,
-                "({x}, {y}): {value} instead of {factor}",
-            );
+            assert!((value - factor).abs() <= MISSED * factor + 4e-3, "({x}, {y}): {value} instead of {factor}",);
             partial += usize::from(factor > 0.05 && factor < 0.95);
         }
     }
@@ -76,25 +70,15 @@ fn compare_ground(light: Light, expected: impl Fn(DVec3) -> (f64, f64)) {
 fn hardness_of_a_sun() {
     for hardness in [2.0f32, 8.0, 32.0] {
         let direction = DVec3::new(1.0, 0.3, 1.2).normalize();
-        let sun = Sun {
-            direction,
-            shadow: Shadow::Hardness(hardness),
-            ..Sun::default()
-        };
-        compare_ground(Light::Sun(sun), |point| {
-            (direction.z, factor(point, direction, 12.0, hardness.into()))
-        });
+        let sun = Sun { direction, shadow: Shadow::Hardness(hardness), ..Sun::default() };
+        compare_ground(Light::Sun(sun), |point| (direction.z, factor(point, direction, 12.0, hardness.into())));
     }
 }
 
 #[test]
 fn hardness_below_one_is_wider_than_a_half_space() {
     let direction = DVec3::new(1.0, 0.3, 1.2).normalize();
-    let sun = Sun {
-        direction,
-        shadow: Shadow::Hardness(0.8),
-        ..Sun::default()
-    };
+    let sun = Sun { direction, shadow: Shadow::Hardness(0.8), ..Sun::default() };
     let mut scene = scene_with(Light::Sun(sun));
     // Where the ray goes to infinity the ratio tends to 1, and the factor to the hardness.
     scene.tracing.max_distance = 1e4;
@@ -106,12 +90,7 @@ fn hardness_below_one_is_wider_than_a_half_space() {
 #[test]
 fn clearance_of_a_lamp() {
     let position = DVec3::new(1.8, 0.4, 3.0);
-    let lamp = Point {
-        position,
-        intensity: 10.0,
-        shadow: Shadow::Clearance { angle: None },
-        ..Point::default()
-    };
+    let lamp = Point { position, intensity: 10.0, shadow: Shadow::Clearance { angle: None }, ..Point::default() };
     // K 6.1: the reference radius at t is t / l times the light's own distance to the scene, ground included.
     let clearance = ((position - CENTER).length() - RADIUS).min(position.z);
     compare_ground(Light::Point(lamp), |point| {
@@ -126,28 +105,17 @@ fn clearance_of_a_lamp() {
 fn clearance_of_a_sun_is_its_apparent_size() {
     let direction = DVec3::new(-1.0, 0.0, 1.0).normalize();
     let angle = 5f64.to_radians();
-    let shadow = Shadow::Clearance {
-        angle: Some(2.0 * angle),
-    };
-    compare_ground(
-        Light::Sun(Sun {
-            direction,
-            shadow,
-            ..Sun::default()
-        }),
-        |point| (direction.z, factor(point, direction, 12.0, 1.0 / angle.tan())),
-    );
+    let shadow = Shadow::Clearance { angle: Some(2.0 * angle) };
+    compare_ground(Light::Sun(Sun { direction, shadow, ..Sun::default() }), |point| {
+        (direction.z, factor(point, direction, 12.0, 1.0 / angle.tan()))
+    });
 }
 
 #[test]
 fn harder_shadows_are_nowhere_darker_and_end_at_the_hard_one() {
     let image = |shadow| {
         let direction = DVec3::new(1.0, 0.3, 1.2);
-        let sun = Sun {
-            direction,
-            shadow,
-            ..Sun::default()
-        };
+        let sun = Sun { direction, shadow, ..Sun::default() };
         picture(&scene_with(Light::Sun(sun)), &options(SIZE.0, SIZE.1)).image
     };
     let hard = image(Shadow::Hard);
@@ -161,27 +129,16 @@ fn harder_shadows_are_nowhere_darker_and_end_at_the_hard_one() {
         }
         before = harder;
     }
-    let differing = before
-        .pixels()
-        .iter()
-        .zip(hard.pixels())
-        .filter(|(a, b)| (a[0] - b[0]).abs() > 1e-2)
-        .count();
+    let differing = before.pixels().iter().zip(hard.pixels()).filter(|(a, b)| (a[0] - b[0]).abs() > 1e-2).count();
     assert!(differing <= 600, "{differing} pixels differ at the limit");
     assert!(hard.pixels().iter().zip(none.pixels()).all(|(a, b)| a[0] <= b[0]));
 }
 
 #[test]
 fn what_stands_behind_a_lamp_casts_no_hard_shadow() {
-    let mut scene = Scene {
-        camera: Some(from_above(20.0, 2.0)),
-        ..dark()
-    };
+    let mut scene = Scene { camera: Some(from_above(20.0, 2.0)), ..dark() };
     let position = DVec3::new(0.0, 0.0, 1.0);
-    scene.lights.push(Light::Point(Point {
-        position,
-        ..Point::default()
-    }));
+    scene.lights.push(Light::Point(Point { position, ..Point::default() }));
     add(&mut scene, plane([0.0, 0.0, 1.0]), chalk());
     add(&mut scene, cuboid([10.0, 10.0, 1.0]).at([0.0, 0.0, -4.0]), chalk());
     let open = picture(&scene, &options(8, 8)).image;
@@ -197,39 +154,21 @@ fn what_stands_behind_a_lamp_casts_no_hard_shadow() {
 fn occluded(objects: impl FnOnce(&mut Scene), occlusion: Occlusion) -> Vec<f32> {
     let mut scene = Scene {
         camera: Some(from_above(20.0, 4.0)),
-        ambient: Ambient {
-            sky: [1.0; 3],
-            ground: [1.0; 3],
-        },
+        ambient: Ambient { sky: [1.0; 3], ground: [1.0; 3] },
         occlusion: Some(occlusion),
         ..dark()
     };
     objects(&mut scene);
-    picture(&scene, &options(40, 40)).image.pixels()[800..840]
-        .iter()
-        .map(|c| c[0])
-        .collect()
+    picture(&scene, &options(40, 40)).image.pixels()[800..840].iter().map(|c| c[0]).collect()
 }
 
 #[test]
 fn an_open_plane_is_not_occluded() {
     let ground = |scene: &mut Scene| add(scene, plane([0.0, 0.0, 1.0]), chalk());
-    let open = occluded(
-        ground,
-        Occlusion {
-            strength: 1.0,
-            reach: Some(1.0),
-        },
-    );
+    let open = occluded(ground, Occlusion { strength: 1.0, reach: Some(1.0) });
     assert!(open.iter().all(|value| (value - 1.0).abs() < 1e-5));
     let marched = |scene: &mut Scene| add(scene, cuboid([200.0, 20.0, 2.0]).at([0.0, 0.0, -1.0]), chalk());
-    let open = occluded(
-        marched,
-        Occlusion {
-            strength: 1.0,
-            reach: Some(1.0),
-        },
-    );
+    let open = occluded(marched, Occlusion { strength: 1.0, reach: Some(1.0) });
     assert!(open.iter().all(|value| (value - 1.0).abs() < 1e-3), "{open:?}");
 }
 
@@ -238,10 +177,7 @@ fn occlusion_is_the_sum_of_its_five_samples() {
     // A wall along x = 0 beside the ground, once intersected exactly and once marched.
     let reach = 0.8f64;
     for strength in [0.5f32, 1.0] {
-        let occlusion = Occlusion {
-            strength,
-            reach: Some(reach),
-        };
+        let occlusion = Occlusion { strength, reach: Some(reach) };
         let planes = occluded(
             |scene| {
                 add(scene, plane([0.0, 0.0, 1.0]), chalk());

@@ -11,21 +11,11 @@ use freikugel_scene::{
 };
 use glam::DVec3;
 
-const WHITE: Ambient = Ambient {
-    sky: [1.0; 3],
-    ground: [1.0; 3],
-};
+const WHITE: Ambient = Ambient { sky: [1.0; 3], ground: [1.0; 3] };
 
 fn still_life() -> Scene {
-    let mut scene = Scene {
-        ambient: WHITE,
-        occlusion: Some(Occlusion::default()),
-        ..dark()
-    };
-    scene.lights.push(Light::Sun(Sun {
-        direction: DVec3::new(1.0, -1.0, 2.0),
-        ..Sun::default()
-    }));
+    let mut scene = Scene { ambient: WHITE, occlusion: Some(Occlusion::default()), ..dark() };
+    scene.lights.push(Light::Sun(Sun { direction: DVec3::new(1.0, -1.0, 2.0), ..Sun::default() }));
     add(&mut scene, torus(1.0, 0.4) | sphere(0.5), Material::default());
     add(&mut scene, plane([0.0, 0.0, 1.0]).offset_by(-0.5), chalk());
     scene
@@ -38,10 +28,7 @@ fn rays_out_of_steps_are_counted_and_are_neither_hits_nor_misses() {
     let good = picture(&scene, &size).stats;
     assert_eq!(good.unresolved, Default::default());
 
-    scene.tracing = Tracing {
-        max_steps: 3,
-        ..Tracing::default()
-    };
+    scene.tracing = Tracing { max_steps: 3, ..Tracing::default() };
     let poor = picture(&scene, &size).stats;
     assert!(poor.unresolved.pixels > 100, "{poor:?}");
     assert_eq!(poor.unresolved.pixels, poor.unresolved.camera, "one ray for each pixel");
@@ -55,10 +42,7 @@ fn rays_out_of_steps_are_counted_and_are_neither_hits_nor_misses() {
 
 #[test]
 fn an_empty_scene_is_its_background() {
-    let scene = Scene {
-        background: Background::Solid([0.25, 0.5, 0.75]),
-        ..dark()
-    };
+    let scene = Scene { background: Background::Solid([0.25, 0.5, 0.75]), ..dark() };
     let rendered = picture(&scene, &options(8, 8));
     assert!(rendered.image.pixels().iter().all(|&c| c == [0.25, 0.5, 0.75]));
     assert_eq!((rendered.stats.hits, rendered.stats.evaluations), (0, 0));
@@ -71,15 +55,8 @@ fn an_empty_scene_is_its_background() {
 
 #[test]
 fn planes_alone_need_no_marching() {
-    let mut scene = Scene {
-        ambient: WHITE,
-        occlusion: Some(Occlusion::default()),
-        ..dark()
-    };
-    scene.lights.push(Light::Point(Point {
-        position: DVec3::Z,
-        ..Point::default()
-    }));
+    let mut scene = Scene { ambient: WHITE, occlusion: Some(Occlusion::default()), ..dark() };
+    scene.lights.push(Light::Point(Point { position: DVec3::Z, ..Point::default() }));
     add(&mut scene, plane([0.0, 0.0, 1.0]), chalk());
     add(&mut scene, sheet([0.0, 1.0, 0.0]).offset_by(2.0), Material::default());
     let rendered = picture(&scene, &options(32, 24));
@@ -91,18 +68,9 @@ fn planes_alone_need_no_marching() {
 fn a_sheet_is_lit_on_the_side_that_is_seen() {
     for side in [-1.0, 1.0] {
         let eye = DVec3::new(0.0, -4.0 * side, 0.0);
-        let mut scene = Scene {
-            camera: Some(Camera {
-                eye,
-                ..Camera::default()
-            }),
-            ..dark()
-        };
+        let mut scene = Scene { camera: Some(Camera { eye, ..Camera::default() }), ..dark() };
         let direction = DVec3::new(0.0, -side, 0.0);
-        scene.lights.push(Light::Sun(Sun {
-            direction,
-            ..Sun::default()
-        }));
+        scene.lights.push(Light::Sun(Sun { direction, ..Sun::default() }));
         // Once alone, where it is intersected exactly, and once cut to a disc and marched.
         add(&mut scene, sheet([0.0, 1.0, 0.0]), chalk());
         let exact = picture(&scene, &options(9, 9)).image;
@@ -110,11 +78,7 @@ fn a_sheet_is_lit_on_the_side_that_is_seen() {
         add(&mut scene, sheet([0.0, 1.0, 0.0]).offset(0.01) & sphere(3.0), chalk());
         let marched = picture(&scene, &options(9, 9)).image;
         for image in [exact, marched] {
-            assert!(
-                (image.pixel(4, 4)[0] - 1.0).abs() < 1e-3,
-                "{side}: {:?}",
-                image.pixel(4, 4)
-            );
+            assert!((image.pixel(4, 4)[0] - 1.0).abs() < 1e-3, "{side}: {:?}", image.pixel(4, 4));
         }
     }
 }
@@ -123,11 +87,7 @@ fn a_sheet_is_lit_on_the_side_that_is_seen() {
 fn a_camera_inside_an_object_sees_its_material_and_says_so() {
     let mut scene = still_life();
     let eye = DVec3::new(1.0, 0.0, 0.0);
-    scene.camera = Some(Camera {
-        eye,
-        target: DVec3::ZERO,
-        ..Camera::default()
-    });
+    scene.camera = Some(Camera { eye, target: DVec3::ZERO, ..Camera::default() });
     let rendered = picture(&scene, &options(16, 16));
     assert_eq!(rendered.stats.inside, 256);
     assert_eq!(rendered.stats.hits, 256);
@@ -135,11 +95,7 @@ fn a_camera_inside_an_object_sees_its_material_and_says_so() {
 
     // Below ground is inside the half-space.
     let eye = DVec3::new(0.0, -5.0, -2.0);
-    scene.camera = Some(Camera {
-        eye,
-        target: DVec3::ZERO,
-        ..Camera::default()
-    });
+    scene.camera = Some(Camera { eye, target: DVec3::ZERO, ..Camera::default() });
     assert_eq!(picture(&scene, &options(16, 16)).stats.inside, 256);
 }
 
@@ -148,18 +104,10 @@ fn a_flat_field_makes_no_false_hits() {
     // Stretched a hundred times along y, a ball's field falls to a hundredth of the distance beyond its tips. Stopping by
     // value alone would lengthen the needle by a hundred tolerances, here by 0.5.
     let shape = sphere(0.1).stretch([1.0, 100.0, 1.0]);
-    let mut scene = Scene {
-        camera: Some(from_above(50.0, 6.0)),
-        ambient: WHITE,
-        ..dark()
-    };
+    let mut scene = Scene { camera: Some(from_above(50.0, 6.0)), ambient: WHITE, ..dark() };
     scene.camera.as_mut().expect("a camera").eye.y = 12.0;
     scene.camera.as_mut().expect("a camera").target.y = 12.0;
-    scene.tracing = Tracing {
-        precision: 1e-4,
-        max_steps: 100_000,
-        ..Tracing::default()
-    };
+    scene.tracing = Tracing { precision: 1e-4, max_steps: 100_000, ..Tracing::default() };
     add(&mut scene, shape, chalk());
     // Something beyond the picture, so that the objects' box does not end at the tip.
     add(&mut scene, sphere(0.1).at([0.0, 30.0, 0.0]), chalk());
@@ -181,17 +129,9 @@ fn far_away_is_as_good_as_near() {
     let mut counts = Vec::new();
     for (distance, offset) in [(10.0, 0.0), (10_000.0, 0.0), (10.0, 1e6)] {
         let center = DVec3::new(offset, -offset, 0.0);
-        let camera = Camera {
-            eye: center - DVec3::Y * distance,
-            target: center,
-            ..from_above(1.0, 2.5)
-        };
+        let camera = Camera { eye: center - DVec3::Y * distance, target: center, ..from_above(1.0, 2.5) };
         let camera = Camera { up: DVec3::Z, ..camera };
-        let mut scene = Scene {
-            camera: Some(camera),
-            ambient: WHITE,
-            ..dark()
-        };
+        let mut scene = Scene { camera: Some(camera), ambient: WHITE, ..dark() };
         scene.tracing.max_distance = 1e6;
         scene.tracing.precision = 0.0;
         add(&mut scene, sphere(1.0).at(center), chalk());
@@ -204,40 +144,19 @@ fn far_away_is_as_good_as_near() {
 
 #[test]
 fn blends_mix_materials_and_unions_do_not() {
-    let paint = |color| Material {
-        color: Pattern::Solid(color),
-        ..chalk()
-    };
-    let mut scene = Scene {
-        ambient: WHITE,
-        camera: Some(from_above(10.0, 2.0)),
-        ..dark()
-    };
-    scene.materials = vec![
-        ("red".into(), paint([1.0, 0.0, 0.0])),
-        ("blue".into(), paint([0.0, 0.0, 1.0])),
-    ];
+    let paint = |color| Material { color: Pattern::Solid(color), ..chalk() };
+    let mut scene = Scene { ambient: WHITE, camera: Some(from_above(10.0, 2.0)), ..dark() };
+    scene.materials = vec![("red".into(), paint([1.0, 0.0, 0.0])), ("blue".into(), paint([0.0, 0.0, 1.0]))];
     let ball = |x: f64, id| sphere(0.5).at([x, 0.0, 0.0]).painted(MaterialId(id));
     let mut at_the_seam = |shape| {
-        scene.objects = vec![Object {
-            name: "pair".into(),
-            material: None,
-            shape,
-        }];
+        scene.objects = vec![Object { name: "pair".into(), material: None, shape }];
         let image = picture(&scene, &options(101, 101)).image;
         let colors = [20, 50, 80].map(|x| image.pixel(x, 50));
-        assert_eq!(
-            [colors[0], colors[2]],
-            [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
-            "far from the seam"
-        );
+        assert_eq!([colors[0], colors[2]], [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], "far from the seam");
         colors[1]
     };
     let [r, g, b] = at_the_seam(smooth_union(0.3, [ball(-0.45, 0), ball(0.45, 1)]));
-    assert!(
-        (r - 0.5).abs() < 0.05 && g == 0.0 && (r + b - 1.0).abs() < 1e-5,
-        "{r} {g} {b}"
-    );
+    assert!((r - 0.5).abs() < 0.05 && g == 0.0 && (r + b - 1.0).abs() < 1e-5, "{r} {g} {b}");
     let [r, g, b] = at_the_seam(ball(-0.45, 0) | ball(0.45, 1));
     assert!((r == 1.0 && b == 0.0) || (r == 0.0 && b == 1.0), "{r} {g} {b}");
 }
@@ -245,53 +164,32 @@ fn blends_mix_materials_and_unions_do_not() {
 #[test]
 fn awkward_lights_and_materials_stay_numbers() {
     let mut scene = still_life();
-    scene.lights.push(Light::Point(Point {
-        position: DVec3::new(1.0, 0.0, 0.4),
-        ..Point::default()
-    }));
+    scene.lights.push(Light::Point(Point { position: DVec3::new(1.0, 0.0, 0.4), ..Point::default() }));
     scene.lights.push(Light::Point(Point {
         position: DVec3::new(1.0, 0.0, 0.0),
         shadow: Shadow::Clearance { angle: None },
         ..Point::default()
     }));
     scene.materials[0].1.exponent = 0.0;
-    scene.materials[1].1.color = Pattern::Checker {
-        colors: [[1.0; 3], [0.0; 3]],
-        size: 1e-12,
-    };
+    scene.materials[1].1.color = Pattern::Checker { colors: [[1.0; 3], [0.0; 3]], size: 1e-12 };
     for samples in [1, 5] {
-        picture(
-            &scene,
-            &Options {
-                samples,
-                ..options(40, 30)
-            },
-        );
+        picture(&scene, &Options { samples, ..options(40, 30) });
     }
 }
 
 #[test]
 fn a_scene_without_camera_is_framed() {
     for extra in [None, Some(plane([0.0, 0.0, 1.0]).into())] {
-        let mut scene = Scene {
-            ambient: WHITE,
-            ..dark()
-        };
+        let mut scene = Scene { ambient: WHITE, ..dark() };
         add(&mut scene, cuboid([1.0, 2.0, 0.5]).at([40.0, -30.0, 7.0]), chalk());
         if let Some(ground) = extra {
-            scene.objects.push(Object {
-                name: "ground".into(),
-                material: None,
-                shape: ground,
-            });
+            scene.objects.push(Object { name: "ground".into(), material: None, shape: ground });
         }
         let renderer = Renderer::new(&scene).expect("a sound scene");
         let (layers, _) = renderer.layers(&options(64, 36), &()).expect("layers");
         let seen = |x: usize, y: usize| layers.pixels()[y * 64 + x].object == Some(0);
         assert!(seen(32, 18), "the box is in the middle");
-        let border = (0..64)
-            .flat_map(|x| [(x, 0), (x, 35)])
-            .chain((0..36).flat_map(|y| [(0, y), (63, y)]));
+        let border = (0..64).flat_map(|x| [(x, 0), (x, 35)]).chain((0..36).flat_map(|y| [(0, y), (63, y)]));
         assert!(border.into_iter().all(|(x, y)| !seen(x, y)), "and wholly visible");
     }
 }
@@ -299,20 +197,14 @@ fn a_scene_without_camera_is_framed() {
 #[test]
 fn layers_tell_distance_depth_normal_and_object() {
     let mut scene = Scene { ..dark() };
-    scene.camera = Some(Camera {
-        eye: DVec3::new(0.0, -5.0, 0.0),
-        ..Camera::default()
-    });
+    scene.camera = Some(Camera { eye: DVec3::new(0.0, -5.0, 0.0), ..Camera::default() });
     add(&mut scene, sphere(1.0), chalk());
     add(&mut scene, plane([0.0, -1.0, 0.0]).offset_by(-2.0), chalk());
     let renderer = Renderer::new(&scene).expect("a sound scene");
     let (layers, stats) = renderer.layers(&options(161, 161), &()).expect("layers");
     assert_eq!(stats.rays.camera, 161 * 161);
     let middle = layers.pixels()[80 * 161 + 80];
-    assert!(
-        (middle.distance - 4.0).abs() < 1e-3 && (middle.depth - 4.0).abs() < 1e-3,
-        "{middle:?}"
-    );
+    assert!((middle.distance - 4.0).abs() < 1e-3 && (middle.depth - 4.0).abs() < 1e-3, "{middle:?}");
     assert!((middle.normal[1] + 1.0).abs() < 1e-4 && middle.object == Some(0) && middle.steps > 0);
     let corner = layers.pixels()[0];
     assert!((corner.depth - 7.0).abs() < 1e-4 && corner.distance > 7.5, "{corner:?}");
@@ -334,38 +226,13 @@ fn faults_are_reported() {
         other => panic!("{other}"),
     }
     let eye = DVec3::ONE;
-    let blind = Scene {
-        camera: Some(Camera {
-            eye,
-            target: eye,
-            ..Camera::default()
-        }),
-        ..dark()
-    };
-    assert!(matches!(
-        fault(&blind, &good),
-        RenderError::Prepare(PrepareError::Camera(_))
-    ));
+    let blind = Scene { camera: Some(Camera { eye, target: eye, ..Camera::default() }), ..dark() };
+    assert!(matches!(fault(&blind, &good), RenderError::Prepare(PrepareError::Camera(_))));
     let mut unlit = dark();
     unlit.lights.push(Light::Sun(Sun::default()));
-    unlit.lights.push(Light::Sun(Sun {
-        direction: DVec3::ZERO,
-        ..Sun::default()
-    }));
-    assert!(matches!(
-        fault(&unlit, &good),
-        RenderError::Prepare(PrepareError::Light { index: 1, .. })
-    ));
-    let frozen = Scene {
-        tracing: Tracing {
-            step_factor: 0.0,
-            ..Tracing::default()
-        },
-        ..dark()
-    };
-    assert!(matches!(
-        fault(&frozen, &good),
-        RenderError::Prepare(PrepareError::Tracing(_))
-    ));
+    unlit.lights.push(Light::Sun(Sun { direction: DVec3::ZERO, ..Sun::default() }));
+    assert!(matches!(fault(&unlit, &good), RenderError::Prepare(PrepareError::Light { index: 1, .. })));
+    let frozen = Scene { tracing: Tracing { step_factor: 0.0, ..Tracing::default() }, ..dark() };
+    assert!(matches!(fault(&frozen, &good), RenderError::Prepare(PrepareError::Tracing(_))));
     assert!(matches!(fault(&dark(), &options(0, 8)), RenderError::Options(_)));
 }

@@ -27,46 +27,27 @@ record! {
 impl Camera {
     /// A camera at `eye` that looks at `target`.
     pub fn look(eye: impl Argument<DVec3>, target: impl Argument<DVec3>) -> Self {
-        Self {
-            eye: eye.value(),
-            target: target.value(),
-            ..Self::default()
-        }
+        Self { eye: eye.value(), target: target.value(), ..Self::default() }
     }
 
     /// The same with a perspective that opens by an angle in degrees from the lower to the upper edge.
     #[must_use]
     pub fn fov(self, degrees: impl Argument<f64>) -> Self {
         let fov = degrees.value().to_radians();
-        Self {
-            projection: Projection::Perspective {
-                fov,
-                axis: FovAxis::Vertical,
-            },
-            ..self
-        }
+        Self { projection: Projection::Perspective { fov, axis: FovAxis::Vertical }, ..self }
     }
 
     /// The same with a perspective that opens by an angle in degrees from side to side.
     #[must_use]
     pub fn horizontal_fov(self, degrees: impl Argument<f64>) -> Self {
         let fov = degrees.value().to_radians();
-        Self {
-            projection: Projection::Perspective {
-                fov,
-                axis: FovAxis::Horizontal,
-            },
-            ..self
-        }
+        Self { projection: Projection::Perspective { fov, axis: FovAxis::Horizontal }, ..self }
     }
 
     /// The same with parallel rays, and `height` from the lower to the upper edge.
     #[must_use]
     pub fn orthographic(self, height: impl Argument<f64>) -> Self {
-        Self {
-            projection: Projection::Orthographic { height: height.value() },
-            ..self
-        }
+        Self { projection: Projection::Orthographic { height: height.value() }, ..self }
     }
 }
 
@@ -92,10 +73,7 @@ const DEFAULT_FOV: f64 = 40.0;
 
 impl Default for Projection {
     fn default() -> Self {
-        Self::Perspective {
-            fov: DEFAULT_FOV.to_radians(),
-            axis: FovAxis::Vertical,
-        }
+        Self::Perspective { fov: DEFAULT_FOV.to_radians(), axis: FovAxis::Vertical }
     }
 }
 
@@ -125,21 +103,11 @@ impl Notation<Projection> for FieldOfView {
         let (axis, angle) = match value {
             Written::Object(_) => {
                 let (index, angle) = reader.variant(value, "an opening angle", &AXES)?;
-                (
-                    if index == 0 {
-                        FovAxis::Vertical
-                    } else {
-                        FovAxis::Horizontal
-                    },
-                    angle,
-                )
+                (if index == 0 { FovAxis::Vertical } else { FovAxis::Horizontal }, angle)
             }
             _ => (FovAxis::Vertical, value),
         };
-        Some(Projection::Perspective {
-            fov: FOV.read(reader, angle)?,
-            axis,
-        })
+        Some(Projection::Perspective { fov: FOV.read(reader, angle)?, axis })
     }
 
     fn fault(&self, value: &Projection) -> Option<String> {
@@ -182,9 +150,7 @@ struct Height;
 
 impl Notation<Projection> for Height {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Projection> {
-        HEIGHT
-            .read(reader, value)
-            .map(|height| Projection::Orthographic { height })
+        HEIGHT.read(reader, value).map(|height| Projection::Orthographic { height })
     }
 
     fn fault(&self, value: &Projection) -> Option<String> {

@@ -29,10 +29,7 @@ impl Scene {
     /// ```
     #[track_caller]
     pub fn check(&self) -> Vec<Diagnostic> {
-        let mut check = Check {
-            diagnostics: Vec::new(),
-            here: Location::caller(),
-        };
+        let mut check = Check { diagnostics: Vec::new(), here: Location::caller() };
         check.surroundings(self);
         check.materials(self);
         check.objects(self);
@@ -49,13 +46,7 @@ struct Check {
 impl Check {
     fn error(&mut self, at: Option<&'static Location<'static>>, message: String) {
         let origin = Origin::Code(at.unwrap_or(self.here));
-        self.diagnostics.push(Diagnostic {
-            severity: Severity::Error,
-            message,
-            hint: None,
-            origin,
-            param: None,
-        });
+        self.diagnostics.push(Diagnostic { severity: Severity::Error, message, hint: None, origin, param: None });
     }
 
     fn faults(&mut self, at: Option<&'static Location<'static>>, what: &str, faults: Vec<Fault>) {
@@ -117,10 +108,7 @@ impl Check {
             let is_foreign = object.material.is_some_and(|id| id.0 as usize >= scene.materials.len());
             // Without an analysis the tree may be too deep to walk through.
             if is_foreign || analysis.is_some() && is_painted_beyond(&object.shape, scene.materials.len()) {
-                self.error(
-                    at,
-                    format!("object {} has a material of another scene", quote(&object.name)),
-                );
+                self.error(at, format!("object {} has a material of another scene", quote(&object.name)));
             }
         }
     }

@@ -33,9 +33,7 @@ pub fn from_hex(text: &str) -> Option<Rgb> {
         return None;
     }
     let channel = |index: usize| match digits.len() {
-        3 => u8::from_str_radix(&digits[index..index + 1], 16)
-            .ok()
-            .map(|digit| digit * 0x11),
+        3 => u8::from_str_radix(&digits[index..index + 1], 16).ok().map(|digit| digit * 0x11),
         6 => u8::from_str_radix(&digits[2 * index..2 * index + 2], 16).ok(),
         _ => None,
     };
@@ -44,11 +42,7 @@ pub fn from_hex(text: &str) -> Option<Rgb> {
 
 /// The linear light of an sRGB value in `[0, 1]` (IEC 61966-2-1).
 pub fn linear(encoded: f32) -> f32 {
-    if encoded <= 0.04045 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    }
+    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
 /// The notation of colours.
@@ -67,9 +61,7 @@ impl Notation<Rgb> for ColorNotation {
                 color
             }
             Written::Array(_) => {
-                let color = reader
-                    .numbers(value, ["red", "green", "blue"])?
-                    .map(|channel| channel as f32);
+                let color = reader.numbers(value, ["red", "green", "blue"])?.map(|channel| channel as f32);
                 reader.sound(value, color, self.fault(&color))
             }
             _ => {

@@ -59,10 +59,8 @@ fn groups<'a>(lines: &Lines<'a>, name: &'a str, diagnostic: &'a Diagnostic) -> V
     // Only the first line of a long value is shown: its beginning says which one it is.
     let [from, to] = [start, end].map(|at| (at - lines.starts[line]).min(text.len()));
     if text.len() <= LONGEST_LINE {
-        let excerpt = Snippet::source(text)
-            .path(name)
-            .line_start(line + 1)
-            .annotation(AnnotationKind::Primary.span(from..to));
+        let excerpt =
+            Snippet::source(text).path(name).line_start(line + 1).annotation(AnnotationKind::Primary.span(from..to));
         return vec![title.element(excerpt).elements(hint)];
     }
     let left = text.floor_char_boundary(from.saturating_sub(SURROUNDINGS));
@@ -88,15 +86,8 @@ pub(crate) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     pub(crate) fn of(text: &'a str) -> Self {
-        let after_breaks = text
-            .bytes()
-            .enumerate()
-            .filter(|&(_, b)| b == b'\n')
-            .map(|(at, _)| at + 1);
-        Self {
-            text,
-            starts: std::iter::once(0).chain(after_breaks).collect(),
-        }
+        let after_breaks = text.bytes().enumerate().filter(|&(_, b)| b == b'\n').map(|(at, _)| at + 1);
+        Self { text, starts: std::iter::once(0).chain(after_breaks).collect() }
     }
 
     /// The line that holds a byte, from 0.

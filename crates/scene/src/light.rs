@@ -32,10 +32,7 @@ record! {
 impl Sun {
     /// A sun in a direction as seen from the scene.
     pub fn towards(direction: impl Argument<DVec3>) -> Self {
-        Self {
-            direction: direction.value(),
-            ..Self::default()
-        }
+        Self { direction: direction.value(), ..Self::default() }
     }
 }
 
@@ -61,10 +58,7 @@ record! {
 impl Point {
     /// A light at a point.
     pub fn at(position: impl Argument<DVec3>) -> Self {
-        Self {
-            position: position.value(),
-            ..Self::default()
-        }
+        Self { position: position.value(), ..Self::default() }
     }
 }
 
@@ -97,20 +91,13 @@ record! {
 impl Spot {
     /// A light at a point, directed to another.
     pub fn at(position: impl Argument<DVec3>, target: impl Argument<DVec3>) -> Self {
-        Self {
-            position: position.value(),
-            target: target.value(),
-            ..Self::default()
-        }
+        Self { position: position.value(), target: target.value(), ..Self::default() }
     }
 
     /// The same with another full opening angle, in degrees.
     #[must_use]
     pub fn angle(self, degrees: impl Argument<f64>) -> Self {
-        Self {
-            angle: degrees.value().to_radians(),
-            ..self
-        }
+        Self { angle: degrees.value().to_radians(), ..self }
     }
 }
 
@@ -159,14 +146,9 @@ impl Light {
     /// The light of a scene that names none: a warm key light with a soft shadow from the upper left of a viewer at +x and
     /// -y, a cooler fill light from the right, and a rim light from behind.
     pub fn rig() -> Vec<Self> {
-        let fill = Sun::towards([1.0, -0.3, 0.5])
-            .color([0.75, 0.85, 1.0])
-            .intensity(0.3)
-            .shadow(Shadow::None);
+        let fill = Sun::towards([1.0, -0.3, 0.5]).color([0.75, 0.85, 1.0]).intensity(0.3).shadow(Shadow::None);
         let rim = Sun::towards([-0.5, 1.0, 0.7]).intensity(0.4).shadow(Shadow::None);
-        let key = Sun::towards([-0.3, -1.0, 1.4])
-            .color([1.0, 0.95, 0.86])
-            .shadow(Shadow::Hardness(12.0));
+        let key = Sun::towards([-0.3, -1.0, 1.4]).color([1.0, 0.95, 0.86]).shadow(Shadow::Hardness(12.0));
         vec![key.into(), fill.into(), rim.into()]
     }
 

@@ -37,22 +37,13 @@ record! {
 impl Material {
     /// A material of one colour.
     pub fn color(color: impl Argument<Rgb>) -> Self {
-        Self {
-            color: Pattern::Solid(color.value()),
-            ..Self::default()
-        }
+        Self { color: Pattern::Solid(color.value()), ..Self::default() }
     }
 
     /// A material of cubes in two colours with edges of length `size`.
     pub fn checker(one: impl Argument<Rgb>, other: impl Argument<Rgb>, size: impl Argument<f64>) -> Self {
-        let color = Pattern::Checker {
-            colors: [one.value(), other.value()],
-            size: size.value(),
-        };
-        Self {
-            color,
-            ..Self::default()
-        }
+        let color = Pattern::Checker { colors: [one.value(), other.value()], size: size.value() };
+        Self { color, ..Self::default() }
     }
 }
 
@@ -65,11 +56,7 @@ fn energy_faults(material: &Material) -> Vec<Fault> {
     let sum = material.diffuse + material.specular;
     let fault = (sum > 1.0 + ENERGY_TOLERANCE).then(|| Fault {
         severity: Severity::Warning,
-        key: if material.diffuse > material.specular {
-            "diffuse"
-        } else {
-            "specular"
-        },
+        key: if material.diffuse > material.specular { "diffuse" } else { "specular" },
         message: format!("`diffuse` and `specular` make {sum} together: more light than arrives"),
         hint: Some("keep their sum at 1 or below".into()),
     });
@@ -128,11 +115,7 @@ impl Notation<[Rgb; 2]> for Pair {
             return None;
         };
         let [one, other] = array.elements.as_slice() else {
-            let message = format!(
-                "{} must be two colours, but has {}",
-                reader.label(),
-                array.elements.len()
-            );
+            let message = format!("{} must be two colours, but has {}", reader.label(), array.elements.len());
             reader.error(crate::reader::span(value), message, None);
             return None;
         };

@@ -154,24 +154,12 @@ impl Notation<Vec<Object>> for ObjectsNotation {
             };
             if !name.value.is_empty() && !names.insert(name.value.as_ref()) {
                 let message = format!("another object is called {} already", quote(&name.value));
-                reader.error(
-                    name.range.start..name.range.end,
-                    message,
-                    Some("names must differ".into()),
-                );
+                reader.error(name.range.start..name.range.end, message, Some("names must differ".into()));
             }
         }
-        for (index, object) in objects
-            .iter_mut()
-            .enumerate()
-            .filter(|(_, object)| object.name.is_empty())
-        {
+        for (index, object) in objects.iter_mut().enumerate().filter(|(_, object)| object.name.is_empty()) {
             let numbered = format!("object {}", index + 1);
-            object.name = if names.contains(numbered.as_str()) {
-                format!("{numbered} (unnamed)")
-            } else {
-                numbered
-            };
+            object.name = if names.contains(numbered.as_str()) { format!("{numbered} (unnamed)") } else { numbered };
         }
         Some(objects)
     }

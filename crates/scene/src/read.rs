@@ -61,28 +61,17 @@ pub const MOST_NESTED: usize = crate::syntax::DEEPEST;
 fn read_body(text: &str) -> Reading {
     let mut reader = Reader::new();
     let Some(root) = parse(text, &mut reader.diagnostics) else {
-        return Reading {
-            scene: None,
-            diagnostics: reader.diagnostics,
-        };
+        return Reading { scene: None, diagnostics: reader.diagnostics };
     };
     if let Some(newer) = newer_version(&root) {
-        return Reading {
-            scene: None,
-            diagnostics: vec![newer],
-        };
+        return Reading { scene: None, diagnostics: vec![newer] };
     }
     let scene = reader.labelled("the scene".into(), |reader| Scene::read(reader, &root));
     analyse_roots(&mut reader);
     let mut diagnostics = reader.diagnostics;
     diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
-    let is_sound = diagnostics
-        .iter()
-        .all(|diagnostic| diagnostic.severity != Severity::Error);
-    Reading {
-        scene: scene.filter(|_| is_sound),
-        diagnostics,
-    }
+    let is_sound = diagnostics.iter().all(|diagnostic| diagnostic.severity != Severity::Error);
+    Reading { scene: scene.filter(|_| is_sound), diagnostics }
 }
 
 /// What to say of a file for a newer program: nothing else in it can be judged.

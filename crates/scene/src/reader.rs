@@ -39,10 +39,7 @@ pub(crate) struct NodePlace {
 impl Reader {
     /// For a document without materials, until some are read.
     pub(crate) fn new() -> Self {
-        Self {
-            materials: Some(HashMap::new()),
-            ..Self::default()
-        }
+        Self { materials: Some(HashMap::new()), ..Self::default() }
     }
 
     pub(crate) fn report(
@@ -53,12 +50,7 @@ impl Reader {
         hint: Option<String>,
     ) {
         self.errors += usize::from(severity == Severity::Error);
-        self.diagnostics.push(Diagnostic {
-            severity,
-            message: message.into(),
-            hint,
-            span,
-        });
+        self.diagnostics.push(Diagnostic { severity, message: message.into(), hint, span });
     }
 
     pub(crate) fn error(&mut self, span: Range<usize>, message: impl Into<String>, hint: Option<String>) {
@@ -115,11 +107,7 @@ impl Reader {
             return None;
         };
         // Where the parser lets other numbers than JSON's pass, it has reported them.
-        let number: f64 = literal
-            .value
-            .parse()
-            .ok()
-            .filter(|_| !literal.value.contains(['N', 'I']))?;
+        let number: f64 = literal.value.parse().ok().filter(|_| !literal.value.contains(['N', 'I']))?;
         if number.is_infinite() {
             let message = format!("{} is too large: {}", self.label(), quote(literal.value));
             self.error(span(value), message, Some(format!("numbers go up to {:e}", f64::MAX)));
@@ -136,12 +124,7 @@ impl Reader {
             return None;
         };
         if array.elements.len() != N {
-            let message = format!(
-                "{} must be {}, but has {}",
-                self.label(),
-                wanted(),
-                array.elements.len()
-            );
+            let message = format!("{} must be {}, but has {}", self.label(), wanted(), array.elements.len());
             self.error(span(value), message, None);
             return None;
         }
@@ -157,21 +140,12 @@ impl Reader {
     /// The entries of an object by the places of their keys in `keys`; unknown and repeated ones are reported.
     pub(crate) fn entries<'v>(&mut self, value: &'v Written<'v>, keys: &'v [&'static str]) -> Option<Entries<'v>> {
         let Written::Object(object) = value else {
-            self.mistyped(
-                value,
-                "an object",
-                Some(format!("its keys: {}", listed(keys.iter().copied()))),
-            );
+            self.mistyped(value, "an object", Some(format!("its keys: {}", listed(keys.iter().copied()))));
             return None;
         };
         let what = self.label.clone();
-        let mut entries = Entries {
-            what,
-            keys,
-            values: vec![None; keys.len()],
-            guesses: Vec::new(),
-            span: span(value),
-        };
+        let mut entries =
+            Entries { what, keys, values: vec![None; keys.len()], guesses: Vec::new(), span: span(value) };
         for prop in &object.properties {
             let key = prop.name.as_str();
             if let Some(index) = keys.iter().position(|&known| known == key) {
@@ -188,11 +162,7 @@ impl Reader {
                 }
                 None => format!("its keys: {}", listed(keys.iter().copied())),
             };
-            self.error(
-                name_span(prop),
-                format!("{} has no key {}", entries.what, quote(key)),
-                Some(hint),
-            );
+            self.error(name_span(prop), format!("{} has no key {}", entries.what, quote(key)), Some(hint));
         }
         Some(entries)
     }
@@ -212,11 +182,7 @@ impl Reader {
         names: &[&'static str],
     ) -> Option<(usize, &'v Written<'v>)> {
         let Written::Object(object) = value else {
-            self.mistyped(
-                value,
-                "an object",
-                Some(format!("{what} is one of {}", listed(names.iter().copied()))),
-            );
+            self.mistyped(value, "an object", Some(format!("{what} is one of {}", listed(names.iter().copied()))));
             return None;
         };
         let mut found = None;
@@ -268,21 +234,14 @@ impl<'v> Entries<'v> {
 
     /// The value of a key, if it was written.
     pub(crate) fn get(&self, key: &str) -> Option<&'v Written<'v>> {
-        self.keys
-            .iter()
-            .position(|&known| known == key)
-            .and_then(|index| self.values[index])
+        self.keys.iter().position(|&known| known == key).and_then(|index| self.values[index])
     }
 
     /// The value of a key; if it was not written, that is reported.
     pub(crate) fn require(&self, reader: &mut Reader, key: &'static str, about: &str) -> Option<&'v Written<'v>> {
         let value = self.get(key);
         if value.is_none() && !self.guesses.contains(&key) {
-            reader.error(
-                self.span(),
-                format!("{} needs `{key}`", self.what),
-                Some(format!("`{key}`: {about}")),
-            );
+            reader.error(self.span(), format!("{} needs `{key}`", self.what), Some(format!("`{key}`: {about}")));
         }
         value
     }

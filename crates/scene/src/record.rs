@@ -49,12 +49,7 @@ impl Fault {
     /// What a notation says of the value of a key.
     pub(crate) fn of<T>(key: &'static str, notation: &dyn Notation<T>, value: &T) -> Option<Self> {
         let message = format!("`{key}` {}", notation.fault(value)?);
-        Some(Self {
-            severity: Severity::Error,
-            key,
-            message,
-            hint: None,
-        })
+        Some(Self { severity: Severity::Error, key, message, hint: None })
     }
 }
 
@@ -252,38 +247,22 @@ mod tests {
         survives(&Camera::look([1, 2, 3], [4, 5, 6]).horizontal_fov(60).up([0, 1, 0]));
         survives(&Camera::look([1, 2, 3], [4, 5, 6]).orthographic(2.5));
         survives(&Sun::default());
-        survives(
-            &Sun::towards([0.1, 0.2, 0.3])
-                .intensity(0.7)
-                .shadow(Shadow::Hardness(16.0)),
-        );
-        survives(&Sun::default().shadow(Shadow::Clearance {
-            angle: Some(0.5_f64.to_radians()),
-        }));
+        survives(&Sun::towards([0.1, 0.2, 0.3]).intensity(0.7).shadow(Shadow::Hardness(16.0)));
+        survives(&Sun::default().shadow(Shadow::Clearance { angle: Some(0.5_f64.to_radians()) }));
         survives(&Point::default());
         survives(&Point::at([1, 2, 3]).falloff(Falloff::None).shadow(Shadow::None));
         survives(&Point::at([1, 2, 3]).falloff(Falloff::Polynomial([1.0, 0.1, 0.01])));
         survives(&Spot::default());
-        survives(
-            &Spot::at([1, 2, 3], [0, 0, 0])
-                .angle(25)
-                .shadow(Shadow::Clearance { angle: None }),
-        );
+        survives(&Spot::at([1, 2, 3], [0, 0, 0]).angle(25).shadow(Shadow::Clearance { angle: None }));
         survives(&Material::default());
         survives(&Material::color("#c8825a").emissive([0.1, 0.2, 3.0]).model(Model::Phong));
         survives(&Material::checker("#fff", "#123", 0.3).exponent(1e9));
         survives(&Ambient::default());
         survives(&Occlusion::default());
-        survives(&Occlusion {
-            strength: 0.3,
-            reach: Some(0.1),
-        });
+        survives(&Occlusion { strength: 0.3, reach: Some(0.1) });
         survives(&Tracing::default().precision(1e-6).max_steps(1));
         survives(&Picture::default().exposure(-1.5).width(65_536));
-        survives(&Picture {
-            overbright: Overbright::ScaleDown,
-            ..Picture::default()
-        });
+        survives(&Picture { overbright: Overbright::ScaleDown, ..Picture::default() });
     }
 
     #[test]

@@ -97,11 +97,7 @@ impl Scene {
     #[track_caller]
     pub fn add(&mut self, name: impl Into<String>, shape: impl Into<Field>) -> &mut Self {
         note(&mut self.origins.objects, self.objects.len(), Location::caller());
-        self.objects.push(Object {
-            name: name.into(),
-            material: None,
-            shape: shape.into(),
-        });
+        self.objects.push(Object { name: name.into(), material: None, shape: shape.into() });
         self
     }
 

@@ -39,10 +39,7 @@ impl Definitions {
     /// A reference to a record's definition.
     pub(crate) fn record<R: Record>(&mut self) -> Json {
         self.define(R::NAME, |definitions| {
-            let mut schema = RecordSchema {
-                object: ObjectSchema::default(),
-                definitions,
-            };
+            let mut schema = RecordSchema { object: ObjectSchema::default(), definitions };
             R::schema(&mut schema);
             schema.object.finish()
         })

@@ -45,16 +45,10 @@ impl ShadowNotation {
 
     fn clearance(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Shadow> {
         if self.of_sun {
-            return Some(Shadow::Clearance {
-                angle: Some(ANGLE.read(reader, value)?),
-            });
+            return Some(Shadow::Clearance { angle: Some(ANGLE.read(reader, value)?) });
         }
         if !Flag.read(reader, value)? {
-            reader.error(
-                span(value),
-                "`clearance` can only be `true`",
-                Some("write \"shadow\": false".into()),
-            );
+            reader.error(span(value), "`clearance` can only be `true`", Some("write \"shadow\": false".into()));
             return None;
         }
         Some(Shadow::Clearance { angle: None })

@@ -76,11 +76,7 @@ fn node(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
             (Some(shape), None) => found = Some((shape, prop)),
             (Some(_), Some((first, _))) => {
                 let message = format!("{} stands in the same object as `{}`", quote(key), first.about.name);
-                reader.error(
-                    name_span(prop),
-                    message,
-                    Some("give each shape an object of its own".into()),
-                );
+                reader.error(name_span(prop), message, Some("give each shape an object of its own".into()));
                 is_alone = false;
             }
             (None, _) => strangers.push(prop),
@@ -90,21 +86,12 @@ fn node(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
         stranger(reader, prop, found.map(|(shape, _)| shape));
     }
     if object.properties.is_empty() {
-        reader.error(
-            span(value),
-            "a shape is missing here",
-            Some(for_instance(&shapes::SPHERE)),
-        );
+        reader.error(span(value), "a shape is missing here", Some(for_instance(&shapes::SPHERE)));
     }
     let (shape, prop) = found?;
     let index = reader.nodes.len();
-    reader.nodes.push(NodePlace {
-        name: name_span(prop),
-        params: vec![None; shape.about.params.len()],
-    });
-    let field = reader.labelled(quote(shape.about.name), |reader| {
-        call(reader, shape, index, &prop.value)
-    });
+    reader.nodes.push(NodePlace { name: name_span(prop), params: vec![None; shape.about.params.len()] });
+    let field = reader.labelled(quote(shape.about.name), |reader| call(reader, shape, index, &prop.value));
     if is_alone && strangers.is_empty() {
         return field;
     }
@@ -127,10 +114,7 @@ fn stranger(reader: &mut Reader, prop: &ObjectProp<'_>, beside: Option<&Shape>) 
         (None, Some(guess)) => format!("did you mean `{guess}`?"),
         (None, None) => {
             let more = if known.len() > MOST_LISTED { ", ..." } else { "" };
-            format!(
-                "there are {}{more}",
-                known.take(MOST_LISTED).collect::<Vec<_>>().join(", ")
-            )
+            format!("there are {}{more}", known.take(MOST_LISTED).collect::<Vec<_>>().join(", "))
         }
     };
     reader.error(place, format!("there is no shape {}", quote(key)), Some(hint));
@@ -141,10 +125,7 @@ const MOST_LISTED: usize = 40;
 
 /// The example of a shape in a hint, on one line.
 pub(crate) fn for_instance(shape: &Shape) -> String {
-    format!(
-        "for instance {}",
-        shape.about.example.split_whitespace().collect::<Vec<_>>().join(" ")
-    )
+    format!("for instance {}", shape.about.example.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
 /// A call of `shape` with the parameters and shapes in `value`.
@@ -168,11 +149,7 @@ fn call(reader: &mut Reader, shape: &'static Shape, index: usize, value: &Writte
         return finish(reader, shape, index, args, Some(None), children);
     }
     if !matches!(value, Written::Object(_)) {
-        let wanted = if keys == [CHILDREN] {
-            "a list of shapes"
-        } else {
-            "an object with its parameters"
-        };
+        let wanted = if keys == [CHILDREN] { "a list of shapes" } else { "an object with its parameters" };
         reader.mistyped(value, wanted, Some(for_instance(shape)));
         return None;
     }
@@ -215,9 +192,7 @@ fn list(reader: &mut Reader, value: &Written<'_>) -> Vec<Option<Field>> {
     let outer = reader.label().to_string();
     let labels = (1..).map(|number| format!("entry {number} of {outer}"));
     let elements = array.elements.iter().zip(labels);
-    elements
-        .map(|(element, label)| reader.labelled(label, |reader| node(reader, element)))
-        .collect()
+    elements.map(|(element, label)| reader.labelled(label, |reader| node(reader, element))).collect()
 }
 
 /// The node, if all of it could be read; otherwise its sound children become roots.

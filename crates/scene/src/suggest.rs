@@ -27,10 +27,7 @@ fn strangeness(word: &str, name: &str) -> Option<usize> {
 
 /// Case and the ways to separate words make no difference.
 fn plain(word: &str) -> String {
-    word.chars()
-        .filter(|c| !matches!(c, '_' | '-' | ' '))
-        .flat_map(char::to_lowercase)
-        .collect()
+    word.chars().filter(|c| !matches!(c, '_' | '-' | ' ')).flat_map(char::to_lowercase).collect()
 }
 
 /// Text of a user in a message: within backticks, cut where it gets long, and with nothing in it that moves the cursor.
@@ -53,11 +50,7 @@ pub(crate) fn quote(text: &str) -> String {
 
 /// Names in a sentence: `a`, `b`, `c`.
 pub(crate) fn listed<'n>(names: impl IntoIterator<Item = &'n str>) -> String {
-    names
-        .into_iter()
-        .map(|name| format!("`{name}`"))
-        .collect::<Vec<_>>()
-        .join(", ")
+    names.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]

@@ -24,10 +24,7 @@ record! {
 impl Ambient {
     /// The same light from all sides.
     pub fn even(color: Rgb) -> Self {
-        Self {
-            sky: color,
-            ground: color,
-        }
+        Self { sky: color, ground: color }
     }
 }
 

@@ -22,13 +22,7 @@ pub(crate) fn parse<'a>(text: &'a str, diagnostics: &mut Vec<Diagnostic>) -> Opt
         diagnostics.push(fault);
         return None;
     }
-    let error = match read(
-        text,
-        &ParseOptions {
-            allow_comments: true,
-            ..STRICT
-        },
-    ) {
+    let error = match read(text, &ParseOptions { allow_comments: true, ..STRICT }) {
         Ok(Some(value)) => return Some(value),
         Ok(None) => {
             diagnostics.push(Diagnostic {
@@ -133,11 +127,7 @@ fn scan_string(bytes: &[u8], start: usize) -> Result<usize, Diagnostic> {
             Some(b'\\') => at += 2,
             Some(b'\n' | b'\r') | None => {
                 let end = at.min(bytes.len());
-                return Err(fault(
-                    "this text has no end".into(),
-                    "close it with \", or one before it",
-                    start..end,
-                ));
+                return Err(fault("this text has no end".into(), "close it with \", or one before it", start..end));
             }
             Some(&byte @ ..0x20) => {
                 let message = format!("a text holds the control character U+{byte:04X}");
@@ -149,12 +139,7 @@ fn scan_string(bytes: &[u8], start: usize) -> Result<usize, Diagnostic> {
 }
 
 fn fault(message: String, hint: &str, span: Range<usize>) -> Diagnostic {
-    Diagnostic {
-        severity: Severity::Error,
-        message,
-        hint: Some(hint.into()),
-        span,
-    }
+    Diagnostic { severity: Severity::Error, message, hint: Some(hint.into()), span }
 }
 
 const NOT_FINITE: (&str, &str) = ("every number must be finite", "");
@@ -172,10 +157,9 @@ fn explain(text: &str, error: &ParseError) -> Diagnostic {
         | Kind::ExpectedPlusMinusOrDigitInNumberLiteral => ("this number lacks a digit", ""),
         Kind::ExpectedStringObjectProperty => ("this key is not in quotes", "write \"key\": value"),
         Kind::ExpectedComma => ("there is no comma here", "put one between a value and what follows it"),
-        Kind::MultipleRootJsonValues => (
-            "the scene ends before this",
-            "remove the rest, or one bracket too many before it",
-        ),
+        Kind::MultipleRootJsonValues => {
+            ("the scene ends before this", "remove the rest, or one bracket too many before it")
+        }
         Kind::BareDecimalPointNumbersNotAllowed => ("this number has no digit beside its point", "write 0.5 or 5"),
         Kind::HexadecimalNumbersNotAllowed => ("JSON has no hexadecimal numbers", "write it in decimals"),
         Kind::UnaryPlusNumbersNotAllowed => ("a number does not start with +", "leave it out"),

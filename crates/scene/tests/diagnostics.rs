@@ -35,10 +35,7 @@ fn syntax() {
         ("never_closed", "{ \"objects\": [ {"),
         ("closed_too_early", "{ \"objects\": [] ] }"),
         ("two_values", "{} {}"),
-        (
-            "text_over_the_line",
-            "{ \"camera: { \"eye\": [1, 2, 3] },\n  \"objects\": [] }",
-        ),
+        ("text_over_the_line", "{ \"camera: { \"eye\": [1, 2, 3] },\n  \"objects\": [] }"),
         ("tab_in_text", "{ \"materials\": { \"a\tb\": {} } }"),
         ("no_break_space", "{\u{a0}\"objects\": [] }"),
         ("wrong_escape", r#"{ "materials": { "\q": {} } }"#),
@@ -65,10 +62,7 @@ fn documents() {
         ("no_objects", "{ \"objects\": [] }"),
         ("newer_version", "{ \"version\": 2, \"objcts\": true }"),
         ("no_shape", "{ \"objects\": [ { \"name\": \"a\" }, 3 ] }"),
-        (
-            "objects_by_name",
-            "{ \"objects\": { \"a\": { \"sphere\": { \"radius\": 1 } } } }",
-        ),
+        ("objects_by_name", "{ \"objects\": { \"a\": { \"sphere\": { \"radius\": 1 } } } }"),
     ] {
         check(name, text);
     }
@@ -77,30 +71,15 @@ fn documents() {
         ("version_as_text", r#""version": "1""#),
         ("unknown_key", r#""camra": {}, "fog": {}"#),
         ("duplicate_key", r#""tracing": {}, "tracing": {}"#),
-        (
-            "camera",
-            r#""camera": { "target": [0, 0], "up": [0, 0, 0], "fov": 180, "height": 3 }"#,
-        ),
-        (
-            "named_axis",
-            r#""camera": { "eye": [1, 2, 3], "fov": { "diagonal": 30 }, "up": "up" }"#,
-        ),
-        (
-            "lights",
-            r##""lights": [ { "sun": {} }, { "lamp": {} }, {}, { "point": {}, "spot": {} }, 1 ]"##,
-        ),
-        (
-            "sun",
-            r#""lights": [ { "sun": { "direction": "w", "intensity": -1, "shadow": { "clearance": true } } } ]"#,
-        ),
+        ("camera", r#""camera": { "target": [0, 0], "up": [0, 0, 0], "fov": 180, "height": 3 }"#),
+        ("named_axis", r#""camera": { "eye": [1, 2, 3], "fov": { "diagonal": 30 }, "up": "up" }"#),
+        ("lights", r##""lights": [ { "sun": {} }, { "lamp": {} }, {}, { "point": {}, "spot": {} }, 1 ]"##),
+        ("sun", r#""lights": [ { "sun": { "direction": "w", "intensity": -1, "shadow": { "clearance": true } } } ]"#),
         (
             "point",
             r#""lights": [ { "point": { "position": [0, null, 1e999], "falloff": "inverse_squar", "shadow": "soft" } } ]"#,
         ),
-        (
-            "spot",
-            r#""lights": [ { "spot": { "position": [0, 0, 1], "target": [0, 0, 1], "softness": 0.5 } } ]"#,
-        ),
+        ("spot", r#""lights": [ { "spot": { "position": [0, 0, 1], "target": [0, 0, 1], "softness": 0.5 } } ]"#),
         (
             "falloff",
             r#""lights": [ { "point": { "position": [0, 0, 1], "falloff": [0, 0, 0] } }, { "point": { "position": [0, 0, 1], "falloff": [1, -1] } } ]"#,
@@ -122,16 +101,10 @@ fn documents() {
             r##""ambient": { "sky": "#fff" }, "background": { "gradient": { "top": 1, "bottom": "#000" } }"##,
         ),
         ("energy", r#""materials": { "a": { "diffuse": 0.9, "specular": 0.2 } }"#),
-        (
-            "model",
-            r#""materials": { "a": { "model": "Phong" }, "b": { "model": "lambert" }, "c": { "model": 1 } }"#,
-        ),
+        ("model", r#""materials": { "a": { "model": "Phong" }, "b": { "model": "lambert" }, "c": { "model": 1 } }"#),
         ("same_material_twice", r#""materials": { "a": {}, "a": {} }"#),
         ("occlusion", r#""occlusion": { "strength": -1, "reach": 0 }"#),
-        (
-            "limits",
-            r#""tracing": { "max_steps": 0.5, "precision": 0, "step_factor": 1.5, "max_distance": -1e300 }"#,
-        ),
+        ("limits", r#""tracing": { "max_steps": 0.5, "precision": 0, "step_factor": 1.5, "max_distance": -1e300 }"#),
         (
             "picture",
             r#""picture": { "width": 0, "height": 1e9, "samples": -1, "exposure": 1e39, "overbright": "scale" }"#,
@@ -165,10 +138,7 @@ fn shapes() {
         ("empty_union_in_full", r#"{ "union": { "shapes": [] } }"#),
         ("two_shapes", r#"{ "sphere": { "radius": 1 }, "box": { "size": 0 } }"#),
         ("stranger", r#"{ "sphere": { "radius": -1 }, "material": "clay" }"#),
-        (
-            "list_without_parameters",
-            r#"{ "smooth_union": [ { "sphere": { "radius": 0 } } ] }"#,
-        ),
+        ("list_without_parameters", r#"{ "smooth_union": [ { "sphere": { "radius": 0 } } ] }"#),
         (
             "size",
             r#"{ "union": [ { "box": { "size": [1, 2] } }, { "box": { "size": [1, -2, 1] } }, { "box": { "size": "1" } } ] }"#,
@@ -178,15 +148,9 @@ fn shapes() {
             r#"{ "rotate": { "axis": [0, 0, 0], "angle": 30, "shape": { "sphere": { "radius": -1 } } } }"#,
         ),
         ("axis", r#"{ "cylinder": { "radius": 1, "height": 2, "axis": "w" } }"#),
-        (
-            "half_spaces",
-            r#"{ "convex_polyhedron": { "half_spaces": [ [0, 0, 1], [0, 0, 0, 1], 7 ] } }"#,
-        ),
+        ("half_spaces", r#"{ "convex_polyhedron": { "half_spaces": [ [0, 0, 1], [0, 0, 0, 1], 7 ] } }"#),
         ("no_child", r#"{ "translate": { "by": [0, 0, 1] } }"#),
-        (
-            "children_for_child",
-            r#"{ "translate": { "by": [0, 0, 1], "shapes": [] } }"#,
-        ),
+        ("children_for_child", r#"{ "translate": { "by": [0, 0, 1], "shapes": [] } }"#),
         (
             "one_mistake_each",
             r#"{ "difference": [
@@ -194,10 +158,7 @@ fn shapes() {
     { "scale": { "factor": 0, "shape": { "spher": { "radius": 1 } } } },
     { "torus": { "major": 1, "minor": 0.25, "axis": "z", "axis": "x" } } ] }"#,
         ),
-        (
-            "unpainted",
-            r#"{ "paint": { "shape": { "sphere": { "radius": 1 } } } }"#,
-        ),
+        ("unpainted", r#"{ "paint": { "shape": { "sphere": { "radius": 1 } } } }"#),
     ] {
         check(name, &with_shape(shape));
     }
@@ -209,20 +170,13 @@ fn unknown_shapes_are_answered_with_the_known_ones() {
     let diagnostics = read(&with_shape(r#"{ "teapot": {} }"#)).diagnostics;
     assert_eq!(diagnostics.len(), 1);
     assert_eq!(diagnostics[0].message, "there is no shape `teapot`");
-    assert!(
-        diagnostics[0]
-            .hint
-            .as_ref()
-            .is_some_and(|hint| hint.contains(", cylinder, "))
-    );
+    assert!(diagnostics[0].hint.as_ref().is_some_and(|hint| hint.contains(", cylinder, ")));
 }
 
 #[test]
 fn long_lines_are_cut() {
-    let text = format!(
-        "{{ \"objects\": [ {}0 ] }}",
-        "{ \"shape\": { \"sphere\": { \"radius\": 1 } } }, ".repeat(50_000)
-    );
+    let text =
+        format!("{{ \"objects\": [ {}0 ] }}", "{ \"shape\": { \"sphere\": { \"radius\": 1 } } }, ".repeat(50_000));
     let printed = shown(&text);
     assert!(printed.len() < 2000, "{} bytes", printed.len());
     insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false }, {

@@ -17,10 +17,7 @@ fn survives(text: &str) {
     let reading = read(text);
     for diagnostic in &reading.diagnostics {
         assert!(diagnostic.span.start <= diagnostic.span.end, "{diagnostic:?}");
-        assert!(
-            text.get(diagnostic.span.clone()).is_some(),
-            "{diagnostic:?} lies outside of {text:?}"
-        );
+        assert!(text.get(diagnostic.span.clone()).is_some(), "{diagnostic:?} lies outside of {text:?}");
     }
     let printed = report(text, "scene.json", &reading.diagnostics, false);
     assert!(printed.len() < 100_000, "{} bytes", printed.len());
@@ -43,20 +40,11 @@ fn large_texts_are_read_quickly() {
         ("a long number", "1".repeat(5_000_000)),
         ("a long text", format!("\"{}\"", "x".repeat(5_000_000))),
         ("an endless text", format!("\"{}", "\\\"".repeat(2_000_000))),
-        (
-            "unknown keys",
-            format!("{{{}\"z\": 0}}", "\"camra\": 0,".repeat(100_000)),
-        ),
-        (
-            "duplicate materials",
-            format!("{{\"materials\": {{{}\"z\": 0}}}}", "\"a\": {},".repeat(100_000)),
-        ),
+        ("unknown keys", format!("{{{}\"z\": 0}}", "\"camra\": 0,".repeat(100_000))),
+        ("duplicate materials", format!("{{\"materials\": {{{}\"z\": 0}}}}", "\"a\": {},".repeat(100_000))),
         ("lines", "\n".repeat(5_000_000)),
         ("comments", "/**/".repeat(1_000_000)),
-        (
-            "a wide union",
-            format!(r#"{{ "objects": [ {{ "shape": {{ "union": [ {spheres} 1 ] }} }} ] }}"#),
-        ),
+        ("a wide union", format!(r#"{{ "objects": [ {{ "shape": {{ "union": [ {spheres} 1 ] }} }} ] }}"#)),
         ("zero bytes", "\0".repeat(1_000_000)),
     ] {
         let start = Instant::now();

@@ -19,13 +19,7 @@ fn one_object_is_a_scene() {
     assert_eq!(scene.camera, None);
     assert_eq!(scene.lights, Light::rig());
     assert_eq!(scene.ambient, default.ambient);
-    assert_eq!(
-        scene.occlusion,
-        Some(Occlusion {
-            strength: 1.0,
-            reach: None
-        })
-    );
+    assert_eq!(scene.occlusion, Some(Occlusion { strength: 1.0, reach: None }));
     assert_eq!(scene.background, default.background);
     assert!(scene.materials.is_empty());
     assert_eq!(scene.tracing, Tracing::default());
@@ -33,13 +27,7 @@ fn one_object_is_a_scene() {
     assert_eq!(scene.objects[0].name, "object 1");
     assert_eq!(scene.objects[0].material, None);
     let extent = analyse(&scene.objects[0].shape).0.expect("sound").extent;
-    assert_eq!(
-        extent,
-        Extent::Finite(Aabb {
-            min: DVec3::splat(-2.0),
-            max: DVec3::splat(2.0)
-        })
-    );
+    assert_eq!(extent, Extent::Finite(Aabb { min: DVec3::splat(-2.0), max: DVec3::splat(2.0) }));
 }
 
 #[test]
@@ -58,20 +46,9 @@ fn a_full_scene_has_all_its_values() {
     );
     let fov = std::f64::consts::FRAC_PI_2;
     let camera = scene.camera.expect("a camera");
-    assert_eq!(
-        (camera.eye, camera.target, camera.up),
-        (DVec3::new(4.0, -6.0, 3.0), DVec3::Z, DVec3::Z)
-    );
-    assert_eq!(
-        camera.projection,
-        Projection::Perspective {
-            fov,
-            axis: FovAxis::Vertical
-        }
-    );
-    let clearance = Shadow::Clearance {
-        angle: Some(18_f64.to_radians()),
-    };
+    assert_eq!((camera.eye, camera.target, camera.up), (DVec3::new(4.0, -6.0, 3.0), DVec3::Z, DVec3::Z));
+    assert_eq!(camera.projection, Projection::Perspective { fov, axis: FovAxis::Vertical });
+    let clearance = Shadow::Clearance { angle: Some(18_f64.to_radians()) };
     assert_eq!(
         scene.lights,
         [
@@ -89,21 +66,9 @@ fn a_full_scene_has_all_its_values() {
     assert_eq!(name, "clay");
     assert_eq!(*clay, Material::color([0.0; 3]).specular(0.1).model(Model::Phong));
     assert_eq!(scene.materials[0].1.color, Pattern::Solid([0.5, 0.25, 2.0]));
-    assert_eq!(
-        scene.ambient,
-        Ambient {
-            sky: [1.0; 3],
-            ground: [1.0; 3]
-        }
-    );
+    assert_eq!(scene.ambient, Ambient { sky: [1.0; 3], ground: [1.0; 3] });
     assert_eq!(scene.occlusion, None);
-    assert_eq!(
-        scene.background,
-        Background::Gradient {
-            top: [1.0; 3],
-            bottom: [0.0, 0.0, 1.0]
-        }
-    );
+    assert_eq!(scene.background, Background::Gradient { top: [1.0; 3], bottom: [0.0, 0.0, 1.0] });
     assert_eq!(scene.objects[0].material, Some(MaterialId(1)));
     assert_eq!(scene.objects[0].shape.node().material, Some(MaterialId(0)));
 }
@@ -123,10 +88,8 @@ fn files_may_hold_comments() {
 #[test]
 fn examples_are_sound() {
     for shape in ALL {
-        let text = format!(
-            r#"{{ "materials": {{ "clay": {{}} }}, "objects": [ {{ "shape": {} }} ] }}"#,
-            shape.about.example
-        );
+        let text =
+            format!(r#"{{ "materials": {{ "clay": {{}} }}, "objects": [ {{ "shape": {} }} ] }}"#, shape.about.example);
         let scene = sound(&text);
         assert_eq!(scene.check(), [], "{}", shape.about.name);
     }
@@ -157,10 +120,7 @@ fn mistakes(found: &[freikugel_field::Diagnostic], start: u32) -> Vec<(u32, &str
         Origin::Code(location) => location.line() - start,
         Origin::Document(_) => panic!("this scene has no text"),
     };
-    found
-        .iter()
-        .map(|mistake| (place(mistake.origin), mistake.message.as_str()))
-        .collect()
+    found.iter().map(|mistake| (place(mistake.origin), mistake.message.as_str())).collect()
 }
 
 #[test]
@@ -188,7 +148,7 @@ fn mistakes_in_code_have_lines() {
         ),
         (3, "another material is called `red` already"),
         (3, "material `red`: `specular` must not be negative, but is -1"),
-        (4, "`radius` of sphere must be above 0, but is -1"),
+        (4, "`radius` of `sphere` must be above 0, but is -1"),
         (5, "another object is called `a` already"),
         (5, "object `a` has a material of another scene"),
     ];
@@ -201,10 +161,7 @@ fn the_first_light_ends_the_default_ones() {
     let mut scene = Scene::of(sphere(1.0));
     assert_eq!(scene.lights.len(), 3);
     scene.light(Sun::default()).light(Point::default());
-    assert_eq!(
-        scene.lights,
-        [Light::from(Sun::default()), Light::from(Point::default())]
-    );
+    assert_eq!(scene.lights, [Light::from(Sun::default()), Light::from(Point::default())]);
 }
 
 #[test]

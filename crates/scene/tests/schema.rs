@@ -43,10 +43,7 @@ static VALIDATOR: LazyLock<Validator> = LazyLock::new(|| Validator(schema()));
 impl Validator {
     fn resolve<'s>(&'s self, schema: &'s Json) -> &'s Json {
         match schema.get("$ref").and_then(Json::as_str) {
-            Some(path) => self
-                .0
-                .pointer(path.trim_start_matches('#'))
-                .expect("the reference leads somewhere"),
+            Some(path) => self.0.pointer(path.trim_start_matches('#')).expect("the reference leads somewhere"),
             None => schema,
         }
     }
@@ -57,9 +54,7 @@ impl Validator {
 
     fn matches(&self, schema: &Json, value: &Json) -> bool {
         let keywords = schema.as_object().expect("a schema is an object");
-        keywords
-            .iter()
-            .all(|(keyword, wanted)| self.meets(keywords, keyword, wanted, value))
+        keywords.iter().all(|(keyword, wanted)| self.meets(keywords, keyword, wanted, value))
     }
 
     fn meets(&self, schema: &Map<String, Json>, keyword: &str, wanted: &Json, value: &Json) -> bool {
@@ -87,17 +82,12 @@ impl Validator {
             "anyOf" => alternatives().any(|schema| self.matches(schema, value)),
             "oneOf" => alternatives().filter(|schema| self.matches(schema, value)).count() == 1,
             "not" => !self.matches(wanted, value),
-            "items" => value
-                .as_array()
-                .is_none_or(|list| list.iter().all(|entry| self.matches(wanted, entry))),
+            "items" => value.as_array().is_none_or(|list| list.iter().all(|entry| self.matches(wanted, entry))),
             "minItems" => value.as_array().is_none_or(|list| list.len() >= count()),
             "maxItems" => value.as_array().is_none_or(|list| list.len() <= count()),
             "minLength" => value.as_str().is_none_or(|text| text.chars().count() >= count()),
             "pattern" => {
-                assert_eq!(
-                    wanted, "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$",
-                    "the one pattern that is known here"
-                );
+                assert_eq!(wanted, "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$", "the one pattern that is known here");
                 value.as_str().is_none_or(|text| {
                     text.starts_with('#')
                         && [4, 7].contains(&text.len())
@@ -110,23 +100,17 @@ impl Validator {
             "minProperties" => value.as_object().is_none_or(|object| object.len() >= count()),
             "maxProperties" => value.as_object().is_none_or(|object| object.len() <= count()),
             "properties" => value.as_object().is_none_or(|object| {
-                object
-                    .iter()
-                    .all(|(key, value)| wanted.get(key).is_none_or(|schema| self.matches(schema, value)))
+                object.iter().all(|(key, value)| wanted.get(key).is_none_or(|schema| self.matches(schema, value)))
             }),
             "additionalProperties" => value.as_object().is_none_or(|object| {
                 let others = object.iter().filter(|(key, _)| {
-                    schema
-                        .get("properties")
-                        .is_none_or(|properties| properties.get(key.as_str()).is_none())
+                    schema.get("properties").is_none_or(|properties| properties.get(key.as_str()).is_none())
                 });
-                others
-                    .into_iter()
-                    .all(|(_, value)| wanted != &Json::Bool(false) && self.matches(wanted, value))
+                others.into_iter().all(|(_, value)| wanted != &Json::Bool(false) && self.matches(wanted, value))
             }),
-            "propertyNames" => value
-                .as_object()
-                .is_none_or(|object| object.keys().all(|key| self.matches(wanted, &json!(key)))),
+            "propertyNames" => {
+                value.as_object().is_none_or(|object| object.keys().all(|key| self.matches(wanted, &json!(key))))
+            }
             other => panic!("keyword {other}"),
         }
     }
@@ -134,9 +118,7 @@ impl Validator {
     /// A small value that meets a schema.
     fn least(&self, schema: &Json) -> Json {
         let schema = self.resolve(schema);
-        let first = ["anyOf", "oneOf", "enum"]
-            .iter()
-            .find_map(|keyword| Some((keyword, schema.get(keyword)?.get(0)?)));
+        let first = ["anyOf", "oneOf", "enum"].iter().find_map(|keyword| Some((keyword, schema.get(keyword)?.get(0)?)));
         match (first, schema.get("const")) {
             (Some((&"enum", value)), _) | (_, Some(value)) => return value.clone(),
             (Some((_, schema)), _) => return self.least(schema),
@@ -148,10 +130,7 @@ impl Validator {
             "string" => json!("clay"),
             "number" | "integer" => {
                 let numbers = [json!(1), json!(0.05), json!(0), json!(0.5)];
-                numbers
-                    .into_iter()
-                    .find(|number| self.matches(schema, number))
-                    .expect("a number in range")
+                numbers.into_iter().find(|number| self.matches(schema, number)).expect("a number in range")
             }
             "array" => {
                 let count = schema.get("minItems").and_then(Json::as_u64).unwrap_or(1);
@@ -161,11 +140,7 @@ impl Validator {
                 let Some(properties) = schema.get("properties").and_then(Json::as_object) else {
                     return json!({ "clay": self.least(&schema["additionalProperties"]) });
                 };
-                let required = schema
-                    .get("required")
-                    .and_then(Json::as_array)
-                    .cloned()
-                    .unwrap_or_default();
+                let required = schema.get("required").and_then(Json::as_array).cloned().unwrap_or_default();
                 let mut keys: Vec<&str> = required.iter().filter_map(Json::as_str).collect();
                 if keys.is_empty() && schema.get("minProperties").is_some() {
                     keys.extend(properties.keys().next().map(String::as_str));
@@ -190,10 +165,7 @@ impl Validator {
         let depth = depth - usize::from(is_shape);
         for keyword in ["anyOf", "oneOf"] {
             if let Some(alternatives) = schema.get(keyword).and_then(Json::as_array) {
-                return alternatives
-                    .iter()
-                    .flat_map(|schema| self.samples(schema, depth))
-                    .collect();
+                return alternatives.iter().flat_map(|schema| self.samples(schema, depth)).collect();
             }
         }
         if let Some(values) = schema.get("enum").and_then(Json::as_array) {
@@ -201,18 +173,10 @@ impl Validator {
         }
         if let (Some(items), Some(_)) = (schema.get("items"), schema.get("type")) {
             let count = schema.get("minItems").and_then(Json::as_u64).unwrap_or(1);
-            return self
-                .samples(items, depth)
-                .into_iter()
-                .map(|item| vec![item; count as usize].into())
-                .collect();
+            return self.samples(items, depth).into_iter().map(|item| vec![item; count as usize].into()).collect();
         }
         if let Some(values) = schema.get("additionalProperties").filter(|values| values.is_object()) {
-            return self
-                .samples(values, depth)
-                .into_iter()
-                .map(|value| json!({ "clay": value }))
-                .collect();
+            return self.samples(values, depth).into_iter().map(|value| json!({ "clay": value })).collect();
         }
         let Some(properties) = schema.get("properties").and_then(Json::as_object) else {
             return vec![self.least(schema)];
@@ -266,10 +230,7 @@ fn the_reader_knows_all_that_the_schema_has() {
         assert!(validator.accepts(&sample), "{sample}");
         for diagnostic in read(&sample.to_string()).diagnostics {
             let message = diagnostic.message;
-            assert!(
-                !STRUCTURAL.iter().any(|phrase| message.contains(phrase)),
-                "{message}\n{sample}"
-            );
+            assert!(!STRUCTURAL.iter().any(|phrase| message.contains(phrase)), "{message}\n{sample}");
         }
     }
 }

@@ -9,13 +9,7 @@ use std::fmt::Write;
 /// A function `fn NAME(p: vec3<f32>) -> f32` that computes `result`.
 pub fn function(name: &str, graph: &Graph, result: Expr<'_>) -> String {
     let (terms, loops, owners) = (graph.terms(), graph.loops(), graph.owners());
-    let mut printer = Printer {
-        terms,
-        loops,
-        owners,
-        started: Vec::new(),
-        text: String::new(),
-    };
+    let mut printer = Printer { terms, loops, owners, started: Vec::new(), text: String::new() };
     let _ = writeln!(printer.text, "fn {name}(p: vec3<f32>) -> f32 {{");
     printer.block(None, 1);
     let _ = writeln!(printer.text, "    return {};\n}}", printer.operand(result.id()));
@@ -77,20 +71,10 @@ impl Printer {
                     format!("length(vec2<f32>({}, {}))", self.operand(a), self.operand(b))
                 }
                 Term::Length(a, b, Some(c)) => {
-                    format!(
-                        "length(vec3<f32>({}, {}, {}))",
-                        self.operand(a),
-                        self.operand(b),
-                        self.operand(c)
-                    )
+                    format!("length(vec3<f32>({}, {}, {}))", self.operand(a), self.operand(b), self.operand(c))
                 }
                 Term::Select(c, yes, no) => {
-                    format!(
-                        "select({}, {}, {})",
-                        self.operand(no),
-                        self.operand(yes),
-                        self.operand(c)
-                    )
+                    format!("select({}, {}, {})", self.operand(no), self.operand(yes), self.operand(c))
                 }
             };
             let _ = writeln!(self.text, "{indent}let e{id} = {value};");
@@ -104,11 +88,7 @@ impl Printer {
             let start = self.operand(start);
             let _ = writeln!(self.text, "{indent}var s{l}_{place} = {start};");
         }
-        let _ = writeln!(
-            self.text,
-            "{indent}for (var i{l} = 0u; i{l} < {}u; i{l}++) {{",
-            this.limit
-        );
+        let _ = writeln!(self.text, "{indent}for (var i{l} = 0u; i{l} < {}u; i{l}++) {{", this.limit);
         self.block(Some(l), depth + 1);
         // All new values are computed before the first one is stored: a state may be another one's next value.
         for (place, &next) in this.next.iter().enumerate() {
@@ -128,11 +108,7 @@ impl Printer {
             Term::Slot(slot) => format!("parameters[{slot}]"),
             Term::Literal(bits) => {
                 let number = f64::from_bits(bits) as f32;
-                if number < 0.0 {
-                    format!("({number:?}f)")
-                } else {
-                    format!("{number:?}f")
-                }
+                if number < 0.0 { format!("({number:?}f)") } else { format!("{number:?}f") }
             }
             Term::State(l, place) | Term::Result(l, place) => format!("s{l}_{place}"),
             _ => format!("e{id}"),

@@ -3,10 +3,7 @@
 //! `Dual<T>` is a scalar over any scalar, so `Dual<Lanes<_>>` is a batch of gradients and `Dual<Dual<f64>>` yields
 //! Hessians. At the ties of min, max and select a side is picked; at the origin of a length the derivative is 0.
 
-#![allow(
-    clippy::suspicious_arithmetic_impl,
-    reason = "the product and quotient rules use other operators"
-)]
+#![allow(clippy::suspicious_arithmetic_impl, reason = "the product and quotient rules use other operators")]
 
 use super::Scalar;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -25,10 +22,7 @@ impl<T: Scalar> Dual<T> {
     #[inline(always)]
     pub fn independent(value: T) -> Self {
         let zero = value.lift(0.0);
-        Self {
-            value,
-            gradient: [zero; 3],
-        }
+        Self { value, gradient: [zero; 3] }
     }
 
     /// The input number `axis` (0, 1 or 2), at `value`.
@@ -42,19 +36,13 @@ impl<T: Scalar> Dual<T> {
     #[inline(always)]
     fn map(self, value: T, f: impl Fn(T) -> T) -> Self {
         let [x, y, z] = self.gradient;
-        Self {
-            value,
-            gradient: [f(x), f(y), f(z)],
-        }
+        Self { value, gradient: [f(x), f(y), f(z)] }
     }
 
     #[inline(always)]
     fn zip(self, rhs: Self, value: T, f: impl Fn(T, T) -> T) -> Self {
         let ([x, y, z], [a, b, c]) = (self.gradient, rhs.gradient);
-        Self {
-            value,
-            gradient: [f(x, a), f(y, b), f(z, c)],
-        }
+        Self { value, gradient: [f(x, a), f(y, b), f(z, c)] }
     }
 
     /// `1 / length`, or 0 at length 0.
@@ -136,10 +124,7 @@ impl<T: Scalar> Add<f64> for Dual<T> {
     type Output = Self;
     #[inline(always)]
     fn add(self, rhs: f64) -> Self {
-        Self {
-            value: self.value + rhs,
-            ..self
-        }
+        Self { value: self.value + rhs, ..self }
     }
 }
 
@@ -147,10 +132,7 @@ impl<T: Scalar> Sub<f64> for Dual<T> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, rhs: f64) -> Self {
-        Self {
-            value: self.value - rhs,
-            ..self
-        }
+        Self { value: self.value - rhs, ..self }
     }
 }
 

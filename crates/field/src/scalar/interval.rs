@@ -25,10 +25,7 @@ pub struct Trilean {
 
 impl Interval {
     /// The whole line: nothing is known.
-    pub const ENTIRE: Self = Self {
-        lo: f64::NEG_INFINITY,
-        hi: f64::INFINITY,
-    };
+    pub const ENTIRE: Self = Self { lo: f64::NEG_INFINITY, hi: f64::INFINITY };
 
     /// The interval from `lo` to `hi`.
     ///
@@ -71,10 +68,7 @@ impl Interval {
 
     /// The smallest interval that holds both.
     pub fn hull(self, other: Self) -> Self {
-        Self {
-            lo: self.lo.min(other.lo),
-            hi: self.hi.max(other.hi),
-        }
+        Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
     }
 
     /// What both have in common. Both must be enclosures of one value, so that there is something.
@@ -89,10 +83,7 @@ impl Interval {
         if lo.is_nan() || hi.is_nan() {
             return Self::ENTIRE;
         }
-        Self {
-            lo: lo.next_down(),
-            hi: hi.next_up(),
-        }
+        Self { lo: lo.next_down(), hi: hi.next_up() }
     }
 
     /// The hull of four candidate results, rounded outward.
@@ -139,10 +130,7 @@ impl Div for Interval {
 impl Neg for Interval {
     type Output = Self;
     fn neg(self) -> Self {
-        Self {
-            lo: -self.hi,
-            hi: -self.lo,
-        }
+        Self { lo: -self.hi, hi: -self.lo }
     }
 }
 
@@ -170,30 +158,21 @@ impl Mul<f64> for Interval {
 impl BitAnd for Trilean {
     type Output = Self;
     fn bitand(self, rhs: Self) -> Self {
-        Self {
-            can_hold: self.can_hold && rhs.can_hold,
-            can_fail: self.can_fail || rhs.can_fail,
-        }
+        Self { can_hold: self.can_hold && rhs.can_hold, can_fail: self.can_fail || rhs.can_fail }
     }
 }
 
 impl BitOr for Trilean {
     type Output = Self;
     fn bitor(self, rhs: Self) -> Self {
-        Self {
-            can_hold: self.can_hold || rhs.can_hold,
-            can_fail: self.can_fail && rhs.can_fail,
-        }
+        Self { can_hold: self.can_hold || rhs.can_hold, can_fail: self.can_fail && rhs.can_fail }
     }
 }
 
 impl Not for Trilean {
     type Output = Self;
     fn not(self) -> Self {
-        Self {
-            can_hold: self.can_fail,
-            can_fail: self.can_hold,
-        }
+        Self { can_hold: self.can_fail, can_fail: self.can_hold }
     }
 }
 
@@ -210,10 +189,7 @@ impl Scalar for Interval {
     }
 
     fn lt(self, rhs: Self) -> Trilean {
-        Trilean {
-            can_hold: self.lo < rhs.hi,
-            can_fail: self.hi >= rhs.lo,
-        }
+        Trilean { can_hold: self.lo < rhs.hi, can_fail: self.hi >= rhs.lo }
     }
 
     fn select(mask: Trilean, yes: Self, no: Self) -> Self {
@@ -231,10 +207,7 @@ impl Scalar for Interval {
     fn sqrt(self) -> Self {
         // Outward rounding may have pushed a square below 0; the exact argument is not negative.
         let root = Self::outward(self.lo.max(0.0).sqrt(), self.hi.max(0.0).sqrt());
-        Self {
-            lo: root.lo.max(0.0),
-            hi: root.hi,
-        }
+        Self { lo: root.lo.max(0.0), hi: root.hi }
     }
 
     fn abs(self) -> Self {
@@ -243,33 +216,21 @@ impl Scalar for Interval {
         } else if self.hi <= 0.0 {
             -self
         } else {
-            Self {
-                lo: 0.0,
-                hi: self.hi.max(-self.lo),
-            }
+            Self { lo: 0.0, hi: self.hi.max(-self.lo) }
         }
     }
 
     fn min(self, rhs: Self) -> Self {
-        Self {
-            lo: self.lo.min(rhs.lo),
-            hi: self.hi.min(rhs.hi),
-        }
+        Self { lo: self.lo.min(rhs.lo), hi: self.hi.min(rhs.hi) }
     }
 
     fn max(self, rhs: Self) -> Self {
-        Self {
-            lo: self.lo.max(rhs.lo),
-            hi: self.hi.max(rhs.hi),
-        }
+        Self { lo: self.lo.max(rhs.lo), hi: self.hi.max(rhs.hi) }
     }
 
     fn square(self) -> Self {
         let a = self.abs();
         let square = Self::outward(a.lo * a.lo, a.hi * a.hi);
-        Self {
-            lo: square.lo.max(0.0),
-            hi: square.hi,
-        }
+        Self { lo: square.lo.max(0.0), hi: square.hi }
     }
 }

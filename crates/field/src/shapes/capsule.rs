@@ -23,11 +23,7 @@ impl Primitive for Capsule {
         params: &[
             Param::required("from", ParamKind::Vector, "One end of the segment."),
             Param::required("to", ParamKind::Vector, "The other end of the segment."),
-            Param::required(
-                "radius",
-                ParamKind::Positive,
-                "Distance from the segment to the surface.",
-            ),
+            Param::required("radius", ParamKind::Positive, "Distance from the segment to the surface."),
         ],
         elsewhere: &["line3", "segment", "sdCapsule"],
         example: r#"{ "capsule": { "from": [-0.6, 0, -0.4], "to": [0.6, 0, 0.4], "radius": 0.4 } }"#,
@@ -37,11 +33,7 @@ impl Primitive for Capsule {
         let (from, to) = (DVec3::from_slice(args), DVec3::from_slice(&args[3..]));
         let along = to - from;
         // A segment of no length is a point; any finite factor does, since it multiplies 0.
-        let inverse = if along.length_squared() > 0.0 {
-            1.0 / along.length_squared()
-        } else {
-            0.0
-        };
+        let inverse = if along.length_squared() > 0.0 { 1.0 / along.length_squared() } else { 0.0 };
         vec![from.x, from.y, from.z, along.x, along.y, along.z, inverse, args[6]]
     }
 

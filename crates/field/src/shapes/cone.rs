@@ -26,12 +26,7 @@ impl Primitive for Cone {
         summary: "A cone or frustum with flat ends, its middle at the origin.",
         params: &[
             Param::required("bottom", ParamKind::Length, "Radius of the lower end; 0 for a tip."),
-            Param::optional(
-                "top",
-                ParamKind::Length,
-                &[0.0],
-                "Radius of the upper end; 0 for a tip.",
-            ),
+            Param::optional("top", ParamKind::Length, &[0.0], "Radius of the upper end; 0 for a tip."),
             Param::required("height", ParamKind::Positive, "Full height, from end to end."),
             AXIS,
         ],
@@ -47,24 +42,13 @@ impl Primitive for Cone {
     }
 
     fn prepare(args: &[f64]) -> Vec<f64> {
-        let &[bottom, top, height, _axis] = args else {
-            unreachable!("four numbers")
-        };
+        let &[bottom, top, height, _axis] = args else { unreachable!("four numbers") };
         let slant = height.hypot(top - bottom);
-        vec![
-            bottom,
-            top,
-            height / 2.0,
-            height / slant,
-            (bottom - top) / slant,
-            1.0 / slant,
-        ]
+        vec![bottom, top, height / 2.0, height / slant, (bottom - top) / slant, 1.0 / slant]
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
-        let &[bottom, top, height, _axis] = args else {
-            unreachable!("four numbers")
-        };
+        let &[bottom, top, height, _axis] = args else { unreachable!("four numbers") };
         let across = direction.x.hypot(direction.y);
         let rise = direction.z * height / 2.0;
         (top * across + rise).max(bottom * across - rise) + level * direction.length()

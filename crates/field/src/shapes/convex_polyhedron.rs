@@ -26,9 +26,7 @@ pub fn convex_polyhedron<V: Into<Value>>(half_spaces: impl IntoIterator<Item = (
 pub(crate) fn half_space_values<V: Into<Value>>(
     half_spaces: impl IntoIterator<Item = ([V; 3], V)>,
 ) -> impl Iterator<Item = Value> {
-    half_spaces
-        .into_iter()
-        .flat_map(|([x, y, z], d)| [x.into(), y.into(), z.into(), d.into()])
+    half_spaces.into_iter().flat_map(|([x, y, z], d)| [x.into(), y.into(), z.into(), d.into()])
 }
 
 /// The parameter of both polyhedra.
@@ -49,9 +47,7 @@ type HalfSpace = (DVec3, f64);
 
 /// The half-spaces of a list of numbers.
 pub(crate) fn half_spaces(args: &[f64]) -> Vec<HalfSpace> {
-    args.chunks_exact(4)
-        .map(|h| (DVec3::from_slice(h).normalize(), h[3]))
-        .collect()
+    args.chunks_exact(4).map(|h| (DVec3::from_slice(h).normalize(), h[3])).collect()
 }
 
 /// The edges of the solid behind all planes; an edge may be infinitely long.
@@ -122,11 +118,9 @@ impl Primitive for ConvexPolyhedron {
         }
         let edges = edges(&planes);
         if planes.len() < 4 || edges.iter().any(|(a, b)| !a.is_finite() || !b.is_finite()) {
-            return Err(
-                "the half-spaces do not enclose the polyhedron on all sides; add the missing ones, or use \
+            return Err("the half-spaces do not enclose the polyhedron on all sides; add the missing ones, or use \
                         `convex_polyhedron_bound`"
-                    .into(),
-            );
+                .into());
         }
         if edges.len() < 6 {
             return Err("the half-spaces have no solid in common".into());
@@ -142,31 +136,18 @@ impl Primitive for ConvexPolyhedron {
         }
         let edges = edges(&planes);
         let stored = 3 * planes.len() - 6;
-        for (from, to) in edges
-            .iter()
-            .chain(std::iter::repeat(edges.last().unwrap_or(&(DVec3::ZERO, DVec3::X))))
-            .take(stored)
+        for (from, to) in
+            edges.iter().chain(std::iter::repeat(edges.last().unwrap_or(&(DVec3::ZERO, DVec3::X)))).take(stored)
         {
             let along = *to - *from;
-            constants.extend([
-                from.x,
-                from.y,
-                from.z,
-                along.x,
-                along.y,
-                along.z,
-                1.0 / along.length_squared(),
-            ]);
+            constants.extend([from.x, from.y, from.z, along.x, along.y, along.z, 1.0 / along.length_squared()]);
         }
         constants
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
         let corners = edges(&half_spaces(args)).into_iter().flat_map(|(a, b)| [a, b]);
-        corners
-            .map(|corner| direction.dot(corner))
-            .fold(f64::NEG_INFINITY, f64::max)
-            + level * direction.length()
+        corners.map(|corner| direction.dot(corner)).fold(f64::NEG_INFINITY, f64::max) + level * direction.length()
     }
 
     #[inline(always)]
@@ -207,9 +188,6 @@ pub(crate) fn height<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>, i: usize) -> S
 /// The distance from the edge whose constants start at `i`.
 #[inline(always)]
 fn edge<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>, i: usize) -> S {
-    let (from, along) = (
-        vec3(c.at(i), c.at(i + 1), c.at(i + 2)),
-        vec3(c.at(i + 3), c.at(i + 4), c.at(i + 5)),
-    );
+    let (from, along) = (vec3(c.at(i), c.at(i + 1), c.at(i + 2)), vec3(c.at(i + 3), c.at(i + 4), c.at(i + 5)));
     segment(p, from, along, c.at(i + 6))
 }

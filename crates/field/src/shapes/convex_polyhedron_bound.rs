@@ -30,34 +30,23 @@ impl Primitive for ConvexPolyhedronBound {
     };
 
     fn contract(_args: &[f64]) -> Contract {
-        Contract {
-            outside: Metric::Bound,
-            ..Contract::EXACT
-        }
+        Contract { outside: Metric::Bound, ..Contract::EXACT }
     }
 
     fn prepare(args: &[f64]) -> Vec<f64> {
-        half_spaces(args)
-            .iter()
-            .flat_map(|(n, d)| [n.x, n.y, n.z, *d])
-            .collect()
+        half_spaces(args).iter().flat_map(|(n, d)| [n.x, n.y, n.z, *d]).collect()
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
         let moved: Vec<(DVec3, f64)> = half_spaces(args).into_iter().map(|(n, d)| (n, d + level)).collect();
-        let along_a_plane = args
-            .chunks_exact(4)
-            .map(|h| support_of_plane(h, direction, level))
-            .fold(f64::INFINITY, f64::min);
+        let along_a_plane =
+            args.chunks_exact(4).map(|h| support_of_plane(h, direction, level)).fold(f64::INFINITY, f64::min);
         let edges = edges(&moved);
         if edges.is_empty() || edges.iter().any(|(a, b)| !a.is_finite() || !b.is_finite()) {
             return along_a_plane;
         }
         let corners = edges.into_iter().flat_map(|(a, b)| [a, b]);
-        corners
-            .map(|corner| direction.dot(corner))
-            .fold(f64::NEG_INFINITY, f64::max)
-            .min(along_a_plane)
+        corners.map(|corner| direction.dot(corner)).fold(f64::NEG_INFINITY, f64::max).min(along_a_plane)
     }
 
     #[inline(always)]

@@ -29,21 +29,14 @@ impl Primitive for Cuboid {
         summary: "A box with its middle at the origin.",
         params: &[
             Param::required("size", ParamKind::Size, "Full edge lengths along x, y and z."),
-            Param::optional(
-                "round",
-                ParamKind::Length,
-                &[0.0],
-                "Radius of the rounded edges; the size stays.",
-            ),
+            Param::optional("round", ParamKind::Length, &[0.0], "Radius of the rounded edges; the size stays."),
         ],
         elsewhere: &["cube", "cuboid", "rounded_box", "sdBox", "sdRoundBox"],
         example: r#"{ "box": { "size": [1.6, 1.2, 0.8], "round": 0.1 } }"#,
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[x, y, z, round] = args else {
-            unreachable!("four numbers")
-        };
+        let &[x, y, z, round] = args else { unreachable!("four numbers") };
         if round > x.min(y).min(z) / 2.0 {
             return Err("`round` of `box` must not exceed half the smallest edge".into());
         }
@@ -51,9 +44,7 @@ impl Primitive for Cuboid {
     }
 
     fn prepare(args: &[f64]) -> Vec<f64> {
-        let &[x, y, z, round] = args else {
-            unreachable!("four numbers")
-        };
+        let &[x, y, z, round] = args else { unreachable!("four numbers") };
         vec![x / 2.0 - round, y / 2.0 - round, z / 2.0 - round, round]
     }
 

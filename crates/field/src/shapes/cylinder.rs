@@ -32,12 +32,7 @@ impl Primitive for Cylinder {
         params: &[
             Param::required("radius", ParamKind::Positive, "Distance from the axis to the side."),
             Param::required("height", ParamKind::Positive, "Full height, from end to end."),
-            Param::optional(
-                "round",
-                ParamKind::Length,
-                &[0.0],
-                "Radius of the rounded edges; the size stays.",
-            ),
+            Param::optional("round", ParamKind::Length, &[0.0], "Radius of the rounded edges; the size stays."),
             AXIS,
         ],
         elsewhere: &["capped cylinder", "sdCappedCylinder", "rounded_cylinder"],
@@ -45,9 +40,7 @@ impl Primitive for Cylinder {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[radius, height, round, _axis] = args else {
-            unreachable!("four numbers")
-        };
+        let &[radius, height, round, _axis] = args else { unreachable!("four numbers") };
         if round > radius || round > height / 2.0 {
             return Err("`round` of `cylinder` must not exceed the radius or half the height".into());
         }
@@ -55,16 +48,12 @@ impl Primitive for Cylinder {
     }
 
     fn prepare(args: &[f64]) -> Vec<f64> {
-        let &[radius, height, round, _axis] = args else {
-            unreachable!("four numbers")
-        };
+        let &[radius, height, round, _axis] = args else { unreachable!("four numbers") };
         vec![radius - round, height / 2.0 - round, round]
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
-        let &[radius, height, round, _axis] = args else {
-            unreachable!("four numbers")
-        };
+        let &[radius, height, round, _axis] = args else { unreachable!("four numbers") };
         let across = direction.x.hypot(direction.y);
         (radius - round) * across + (height / 2.0 - round) * direction.z.abs() + (round + level) * direction.length()
     }

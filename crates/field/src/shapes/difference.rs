@@ -38,10 +38,7 @@ pub(crate) fn subtrahend(b: Contract) -> Result<Contract, String> {
 /// The contract of an intersection.
 pub(crate) fn common(a: Contract, b: Contract) -> Contract {
     let both = a.worse_of(b);
-    Contract {
-        outside: both.outside.max(Metric::Bound),
-        ..both
-    }
+    Contract { outside: both.outside.max(Metric::Bound), ..both }
 }
 
 impl Combine for Difference {

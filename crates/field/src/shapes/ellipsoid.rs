@@ -23,11 +23,8 @@ pub fn ellipsoid(radii: impl Into<Triple>) -> Form<Ellipsoid> {
 }
 
 /// The parameter of both ellipsoids.
-pub(crate) const RADII: Param = Param::required(
-    "radii",
-    ParamKind::Size,
-    "Distances from the centre to the surface along x, y and z.",
-);
+pub(crate) const RADII: Param =
+    Param::required("radii", ParamKind::Size, "Distances from the centre to the surface along x, y and z.");
 
 /// More steps than any point within the supported ratio of radii was found to need (the tests count them).
 const MAX_STEPS: u32 = 16;
@@ -55,9 +52,7 @@ impl Primitive for Ellipsoid {
     fn check(args: &[f64]) -> Result<(), String> {
         let radii = DVec3::from_slice(args);
         if radii.max_element() > MAX_RATIO * radii.min_element() {
-            return Err(format!(
-                "the radii of an ellipsoid must not differ by more than a factor of {MAX_RATIO}"
-            ));
+            return Err(format!("the radii of an ellipsoid must not differ by more than a factor of {MAX_RATIO}"));
         }
         Ok(())
     }
@@ -66,16 +61,7 @@ impl Primitive for Ellipsoid {
         let radii = DVec3::from_slice(args);
         let smallest = radii.min_element();
         let excess = radii * radii - smallest * smallest;
-        vec![
-            radii.x,
-            radii.y,
-            radii.z,
-            excess.x,
-            excess.y,
-            excess.z,
-            smallest * smallest,
-            smallest * OFF_PLANE,
-        ]
+        vec![radii.x, radii.y, radii.z, excess.x, excess.y, excess.z, smallest * smallest, smallest * OFF_PLANE]
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
@@ -85,11 +71,7 @@ impl Primitive for Ellipsoid {
     #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let [ax, ay, az, ex, ey, ez, smallest_squared, off_plane] = c.get();
-        let (x, y, z) = (
-            p.x.abs().max(off_plane),
-            p.y.abs().max(off_plane),
-            p.z.abs().max(off_plane),
-        );
+        let (x, y, z) = (p.x.abs().max(off_plane), p.y.abs().max(off_plane), p.z.abs().max(off_plane));
         let (wx, wy, wz) = (ax * x, ay * y, az * z);
         let one = p.x.lift(1.0);
 

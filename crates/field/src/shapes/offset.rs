@@ -36,16 +36,8 @@ impl Modify for Offsetting {
         }
         // Growing keeps outer distances, shrinking inner ones; on the other side a nearer surface may appear.
         Ok(Contract {
-            outside: if by > 0.0 {
-                child.outside
-            } else {
-                child.outside.max(Metric::Bound)
-            },
-            inside: if by < 0.0 {
-                child.inside
-            } else {
-                child.inside.max(Metric::Bound)
-            },
+            outside: if by > 0.0 { child.outside } else { child.outside.max(Metric::Bound) },
+            inside: if by < 0.0 { child.inside } else { child.inside.max(Metric::Bound) },
             signed: child.signed || by > 0.0,
             ..child
         })

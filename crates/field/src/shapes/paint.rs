@@ -9,13 +9,7 @@ pub trait Paint: Into<Field> {
     /// The shape in a material; what was painted on a part of it before stays.
     #[track_caller]
     fn painted(self, material: MaterialId) -> Field {
-        Field::with_origin(
-            &PAINT,
-            [],
-            [self.into()],
-            Some(material),
-            Origin::Code(Location::caller()),
-        )
+        Field::with_origin(&PAINT, [], [self.into()], Some(material), Origin::Code(Location::caller()))
     }
 }
 

@@ -25,18 +25,8 @@ impl Form<Plane> {
 
 /// The parameters of a plane.
 pub(crate) const PLANE_PARAMS: &[Param] = &[
-    Param::optional(
-        "normal",
-        ParamKind::Direction,
-        &[0.0, 0.0, 1.0],
-        "Points out of the plane.",
-    ),
-    Param::optional(
-        "offset",
-        ParamKind::Number,
-        &[0.0],
-        "Distance of the plane from the origin, along its normal.",
-    ),
+    Param::optional("normal", ParamKind::Direction, &[0.0, 0.0, 1.0], "Points out of the plane."),
+    Param::optional("offset", ParamKind::Number, &[0.0], "Distance of the plane from the origin, along its normal."),
 ];
 
 /// Unit normal and offset.
@@ -59,16 +49,6 @@ pub(crate) fn support_of_plane(args: &[f64], direction: DVec3, level: f64) -> f6
     }
 }
 
-fn hit(args: &[f64], origin: DVec3, direction: DVec3) -> Option<f64> {
-    let normal = DVec3::from_slice(args).normalize();
-    let height = normal.dot(origin) - args[3];
-    if height <= 0.0 {
-        return Some(0.0);
-    }
-    let descent = -normal.dot(direction);
-    (descent > 0.0).then(|| height / descent)
-}
-
 impl Primitive for Plane {
     const ABOUT: About = About {
         name: "plane",
@@ -78,7 +58,9 @@ impl Primitive for Plane {
         example: r#"{ "intersection": [ { "sphere": { "radius": 1 } }, { "plane": { "normal": [1, 0, 2], "offset": 0.2 } } ] }"#,
     };
 
-    const RAY: Option<RayFn> = Some(hit);
+    fn exact_form(args: &[f64]) -> Option<ExactForm> {
+        Some(ExactForm::HalfSpace { normal: DVec3::from_slice(args).normalize(), offset: args[3] })
+    }
 
     fn prepare(args: &[f64]) -> Vec<f64> {
         prepare_plane(args)

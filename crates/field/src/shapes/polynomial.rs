@@ -35,14 +35,7 @@ pub(crate) fn prepare(args: &[f64]) -> Vec<f64> {
     let k = args[0];
     let inverse = if k > 0.0 { 1.0 / k } else { 0.0 };
     let cubic = args[1];
-    vec![
-        k,
-        inverse,
-        depth(args) * (1.0 - cubic),
-        depth(args) * cubic,
-        0.5 * (1.0 - cubic),
-        0.5 * cubic,
-    ]
+    vec![k, inverse, depth(args) * (1.0 - cubic), depth(args) * cubic, 0.5 * (1.0 - cubic), 0.5 * cubic]
 }
 
 /// The smooth minimum. Without a blend (k = 0) it is the plain one.

@@ -28,11 +28,7 @@ impl Place for Rotation {
         summary: "Turns a shape about an axis through the origin.",
         params: &[
             Param::required("axis", ParamKind::Direction, "The axis."),
-            Param::required(
-                "angle",
-                ParamKind::Angle,
-                "Counter-clockwise seen from the tip of the axis, in degrees.",
-            ),
+            Param::required("angle", ParamKind::Angle, "Counter-clockwise seen from the tip of the axis, in degrees."),
         ],
         elsewhere: &["rotate_axis"],
         example: r#"{ "rotate": { "axis": "y", "angle": 30, "shape": { "box": { "size": [1.6, 1, 0.6] } } } }"#,

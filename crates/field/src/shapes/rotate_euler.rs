@@ -14,11 +14,7 @@ pub trait RotateEuler: Into<Field> {
     /// The shape turned by three angles in degrees: first about x, then about y, then about z.
     #[track_caller]
     fn rotate_euler(self, degrees: [f64; 3]) -> Field {
-        Field::new(
-            &ROTATE_EULER,
-            degrees.map(|angle| angle.to_radians().into()),
-            [self.into()],
-        )
+        Field::new(&ROTATE_EULER, degrees.map(|angle| angle.to_radians().into()), [self.into()])
     }
 }
 
@@ -28,19 +24,13 @@ impl Place for EulerRotation {
     const ABOUT: About = About {
         name: "rotate_euler",
         summary: "Turns a shape by three angles: first about x, then about y, then about z (z-y'-x'').",
-        params: &[Param::required(
-            "angles",
-            ParamKind::Angles,
-            "The angles about x, y and z, in degrees.",
-        )],
+        params: &[Param::required("angles", ParamKind::Angles, "The angles about x, y and z, in degrees.")],
         elsewhere: &["yaw, pitch, roll"],
         example: r#"{ "rotate_euler": { "angles": [20, 30, 40], "shape": { "box": { "size": [1.6, 1, 0.6] } } } }"#,
     };
 
     fn map(args: &[f64]) -> DAffine3 {
-        let &[x, y, z] = args else {
-            unreachable!("three numbers")
-        };
+        let &[x, y, z] = args else { unreachable!("three numbers") };
         DAffine3::from_mat3(DMat3::from_rotation_z(z) * DMat3::from_rotation_y(y) * DMat3::from_rotation_x(x))
     }
 }

@@ -24,13 +24,6 @@ impl Form<Sheet> {
     }
 }
 
-fn hit(args: &[f64], origin: DVec3, direction: DVec3) -> Option<f64> {
-    let normal = DVec3::from_slice(args).normalize();
-    let height = normal.dot(origin) - args[3];
-    let t = -height / normal.dot(direction);
-    (t.is_finite() && t >= 0.0).then_some(t)
-}
-
 impl Primitive for Sheet {
     const ABOUT: About = About {
         name: "sheet",
@@ -40,7 +33,9 @@ impl Primitive for Sheet {
         example: r#"{ "intersection": [ { "sphere": { "radius": 1 } }, { "sheet": { "normal": [1, 0, 2] } } ] }"#,
     };
 
-    const RAY: Option<RayFn> = Some(hit);
+    fn exact_form(args: &[f64]) -> Option<ExactForm> {
+        Some(ExactForm::Sheet { normal: DVec3::from_slice(args).normalize(), offset: args[3] })
+    }
 
     fn contract(_args: &[f64]) -> Contract {
         Contract::SHEET

@@ -24,11 +24,7 @@ impl Modify for Shell {
     const ABOUT: About = About {
         name: "shell",
         summary: "A wall around a shape's surface, half of it on either side.",
-        params: &[Param::required(
-            "thickness",
-            ParamKind::Positive,
-            "Thickness of the wall.",
-        )],
+        params: &[Param::required("thickness", ParamKind::Positive, "Thickness of the wall.")],
         elsewhere: &["onion", "annular"],
         example: r#"{ "difference": [ { "shell": { "thickness": 0.15, "shape": { "sphere": { "radius": 0.9 } } } },
             { "plane": { "normal": "-y" } } ] }"#,
@@ -40,11 +36,7 @@ impl Modify for Shell {
 
     fn contract(_args: &[f64], child: Contract) -> Result<Contract, String> {
         Ok(Contract {
-            outside: if child.signed {
-                child.outside.max(child.inside)
-            } else {
-                child.outside
-            },
+            outside: if child.signed { child.outside.max(child.inside) } else { child.outside },
             inside: child.outside.max(child.inside).max(Metric::Bound),
             signed: true,
             ..child

@@ -37,7 +37,7 @@ impl Combine for SmoothDifference {
     fn contract(_args: &[f64], a: Contract, b: Contract) -> Result<Contract, String> {
         if !a.signed {
             return Err(
-                "a sheet has no inside to blend with; give it a thickness first, for instance with `offset`".into(),
+                "a sheet has no inside to blend with; give it a thickness first, for instance with `offset`".into()
             );
         }
         Ok(common(a, subtrahend(b)?).at_most_bound())

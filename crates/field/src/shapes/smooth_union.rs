@@ -35,7 +35,7 @@ impl Combine for SmoothUnion {
     fn contract(_args: &[f64], a: Contract, b: Contract) -> Result<Contract, String> {
         if !(a.signed && b.signed) {
             return Err(
-                "a sheet has no inside to blend with; give it a thickness first, for instance with `offset`".into(),
+                "a sheet has no inside to blend with; give it a thickness first, for instance with `offset`".into()
             );
         }
         Ok(a.worse_of(b).at_most_bound())

@@ -19,11 +19,7 @@ impl Primitive for Sphere {
     const ABOUT: About = About {
         name: "sphere",
         summary: "A ball around the origin.",
-        params: &[Param::required(
-            "radius",
-            ParamKind::Positive,
-            "Distance from the centre to the surface.",
-        )],
+        params: &[Param::required("radius", ParamKind::Positive, "Distance from the centre to the surface.")],
         elsewhere: &["ball", "sdSphere"],
         example: r#"{ "sphere": { "radius": 1 } }"#,
     };

@@ -24,11 +24,7 @@ impl Place for Stretching {
     const ABOUT: About = About {
         name: "stretch",
         summary: "Scales a shape by a factor for each axis. Its field is then only a bound.",
-        params: &[Param::required(
-            "factors",
-            ParamKind::Factors,
-            "The factors along x, y and z.",
-        )],
+        params: &[Param::required("factors", ParamKind::Factors, "The factors along x, y and z.")],
         elsewhere: &["non-uniform scale"],
         example: r#"{ "stretch": { "factors": [1.4, 1, 0.6], "shape": { "torus": { "major": 0.7, "minor": 0.3 } } } }"#,
     };

@@ -20,11 +20,7 @@ impl Primitive for Torus {
         name: "torus",
         summary: "A ring: a tube around a circle.",
         params: &[
-            Param::required(
-                "major",
-                ParamKind::Positive,
-                "Radius of the circle in the middle of the tube.",
-            ),
+            Param::required("major", ParamKind::Positive, "Radius of the circle in the middle of the tube."),
             Param::required("minor", ParamKind::Positive, "Radius of the tube."),
             AXIS,
         ],
@@ -34,10 +30,7 @@ impl Primitive for Torus {
 
     fn contract(args: &[f64]) -> Contract {
         let overlaps = args[1] > args[0];
-        Contract {
-            inside: if overlaps { Metric::Bound } else { Metric::Exact },
-            ..Contract::EXACT
-        }
+        Contract { inside: if overlaps { Metric::Bound } else { Metric::Exact }, ..Contract::EXACT }
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {

@@ -29,10 +29,7 @@ impl Combine for Union {
 
     fn contract(_args: &[f64], a: Contract, b: Contract) -> Result<Contract, String> {
         let both = a.worse_of(b);
-        Ok(Contract {
-            inside: both.inside.max(Metric::Bound),
-            ..both
-        })
+        Ok(Contract { inside: both.inside.max(Metric::Bound), ..both })
     }
 
     #[inline(always)]

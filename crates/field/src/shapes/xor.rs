@@ -42,10 +42,6 @@ impl Combine for Xor {
     fn share<S: Scalar>(a: S, b: S, _c: &Constants<'_, S>) -> S {
         let (zero, one) = (a.lift(0.0), a.lift(1.0));
         let from_common = a.min(b).lt(-a.max(b));
-        S::select(
-            from_common,
-            S::select(a.lt(b), one, zero),
-            S::select(b.lt(a), one, zero),
-        )
+        S::select(from_common, S::select(a.lt(b), one, zero), S::select(b.lt(a), one, zero))
     }
 }

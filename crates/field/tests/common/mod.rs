@@ -29,11 +29,7 @@ impl Random {
     }
 
     pub(crate) fn point(&mut self, reach: f64) -> DVec3 {
-        DVec3::new(
-            self.range(-reach, reach),
-            self.range(-reach, reach),
-            self.range(-reach, reach),
-        )
+        DVec3::new(self.range(-reach, reach), self.range(-reach, reach), self.range(-reach, reach))
     }
 
     pub(crate) fn direction(&mut self) -> DVec3 {
@@ -52,11 +48,7 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
     let sign = if random.unit() < 0.5 { -1.0 } else { 1.0 };
     match kind {
         ParamKind::Number => push(random.range(-0.5, 0.5)),
-        ParamKind::Length => push(if random.unit() < 0.3 {
-            0.0
-        } else {
-            random.range(0.1, 0.4)
-        }),
+        ParamKind::Length => push(if random.unit() < 0.3 { 0.0 } else { random.range(0.1, 0.4) }),
         ParamKind::Positive => push(random.range(0.2, 1.2)),
         ParamKind::Factor => push(sign * random.range(0.5, 2.0)),
         ParamKind::Angle => push(random.range(-4.0, 4.0)),
@@ -152,11 +144,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         }
         ("cylinder", [radius, height, round, _]) => {
             let (side, end) = (across - (radius - round), p.z.abs() - (height / 2.0 - round));
-            if side <= 0.0 || end <= 0.0 {
-                side < *round && end < *round
-            } else {
-                side.hypot(end) < *round
-            }
+            if side <= 0.0 || end <= 0.0 { side < *round && end < *round } else { side.hypot(end) < *round }
         }
         ("cone", [bottom, top, height, _]) => {
             let share = p.z / height + 0.5;
@@ -187,14 +175,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             let inside = all(children.map(|c| contains(c, p)))?;
             inside[0] && !inside[1..].iter().any(|&c| c)
         }
-        ("xor", _) => {
-            all(children.map(|c| contains(c, p)))?
-                .into_iter()
-                .filter(|&c| c)
-                .count()
-                % 2
-                == 1
-        }
+        ("xor", _) => all(children.map(|c| contains(c, p)))?.into_iter().filter(|&c| c).count() % 2 == 1,
         ("complement", _) => !contains(children.next()?, p)?,
         ("paint", _) => contains(children.next()?, p)?,
         ("translate", [x, y, z]) => contains(children.next()?, p - DVec3::new(*x, *y, *z))?,
@@ -221,10 +202,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         ("offset" | "shell" | "smooth_union" | "smooth_intersection" | "smooth_difference", _) => {
             return None;
         }
-        (name, args) => panic!(
-            "say in the membership test what lies inside {name} with {} numbers",
-            args.len()
-        ),
+        (name, args) => panic!("say in the membership test what lies inside {name} with {} numbers", args.len()),
     })
 }
 

@@ -15,9 +15,5 @@ pub(super) fn run(scenes: &[PathBuf]) -> Result<(), Failure> {
             }
         }
     }
-    if broken == 0 {
-        Ok(())
-    } else {
-        Err(Failure::Input(String::new()))
-    }
+    if broken == 0 { Ok(()) } else { Err(Failure::Input(String::new())) }
 }

@@ -21,9 +21,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         ["shapes", name] => {
             let shape = shapes::ALL.iter().find(|shape| shape.about.name == name);
             let shape = shape.ok_or_else(|| {
-                Failure::Usage(format!(
-                    "there is no shape {name:?}; `freikugel help shapes` lists them"
-                ))
+                Failure::Usage(format!("there is no shape {name:?}; `freikugel help shapes` lists them"))
             })?;
             print(&describe(shape))
         }
@@ -32,9 +30,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             command.build();
             match command.find_subcommand_mut(name) {
                 Some(command) => print(&command.render_long_help().to_string()),
-                None => Err(Failure::Usage(format!(
-                    "there is no command {name:?}; `freikugel help` lists them"
-                ))),
+                None => Err(Failure::Usage(format!("there is no command {name:?}; `freikugel help` lists them"))),
             }
         }
         _ => Err(Failure::Usage("give one command, or `shapes` and a name".into())),
@@ -43,11 +39,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 fn list() -> String {
     let mut text = String::new();
-    let kinds = [
-        (Arity::None, "Primitives"),
-        (Arity::Many, "Combinations"),
-        (Arity::One, "Changes"),
-    ];
+    let kinds = [(Arity::None, "Primitives"), (Arity::Many, "Combinations"), (Arity::One, "Changes")];
     for (arity, title) in kinds {
         let _ = writeln!(text, "{title}:");
         for shape in shapes::ALL.iter().filter(|shape| shape.arity() == arity) {

@@ -16,16 +16,8 @@ fn describe(scene: &Scene) -> String {
     let mut text = String::new();
     let (mut nodes, mut primitives) = (0, 0);
     for object in &scene.objects {
-        let material = object
-            .material
-            .and_then(|id| scene.materials.get(id.0 as usize))
-            .map_or("", |(name, _)| name);
-        let _ = writeln!(
-            text,
-            "object {:?}, material {material:?}, {}",
-            object.name,
-            boxed(extent(&object.shape))
-        );
+        let material = object.material.and_then(|id| scene.materials.get(id.0 as usize)).map_or("", |(name, _)| name);
+        let _ = writeln!(text, "object {:?}, material {material:?}, {}", object.name, boxed(extent(&object.shape)));
         if let (Some(analysis), _) = analyse(&object.shape) {
             nodes += analysis.nodes;
             primitives += analysis.primitives;

@@ -21,21 +21,14 @@ fn text_of(path: &Path) -> Result<String, String> {
     };
     read.map_err(|error| error.to_string())?;
     if bytes.len() as u64 > MAX_BYTES {
-        return Err(format!(
-            "it is larger than {} MiB, too large for a scene file",
-            MAX_BYTES >> 20
-        ));
+        return Err(format!("it is larger than {} MiB, too large for a scene file", MAX_BYTES >> 20));
     }
     String::from_utf8(bytes).map_err(|_| "it is not text in UTF-8, hence no scene file".into())
 }
 
 /// Reads a scene, printing all diagnostics to standard error.
 pub(super) fn scene(path: &Path) -> Result<Scene, Failure> {
-    let name = if path == Path::new("-") {
-        "standard input".into()
-    } else {
-        path.display().to_string()
-    };
+    let name = if path == Path::new("-") { "standard input".into() } else { path.display().to_string() };
     let text = text_of(path).map_err(|fault| Failure::Input(format!("can't read {name}: {fault}")))?;
     let Reading { scene, diagnostics } = read(&text);
     if !diagnostics.is_empty() {
@@ -44,9 +37,6 @@ pub(super) fn scene(path: &Path) -> Result<Scene, Failure> {
     }
     scene.ok_or_else(|| {
         let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
-        Failure::Input(format!(
-            "{name} has {errors} error{}",
-            if errors == 1 { "" } else { "s" }
-        ))
+        Failure::Input(format!("{name} has {errors} error{}", if errors == 1 { "" } else { "s" }))
     })
 }

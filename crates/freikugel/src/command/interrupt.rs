@@ -33,10 +33,7 @@ impl Interrupt {
 
     /// Names a file that must not stay if the program ends early.
     pub(super) fn guard(&self, path: Option<&Path>) {
-        self.unfinished
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .extend(path.map(Path::to_owned));
+        self.unfinished.lock().unwrap_or_else(PoisonError::into_inner).extend(path.map(Path::to_owned));
     }
 
     /// Whether to stop.

@@ -92,18 +92,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let level = arguments.simd.as_deref().map(instruction_set).transpose()?;
 
     let scene = input::scene(&arguments.scene)?;
-    let mut options = Options {
-        crop: arguments.crop,
-        threads: arguments.threads,
-        level,
-        ..Options::of(&scene)
-    };
+    let mut options = Options { crop: arguments.crop, threads: arguments.threads, level, ..Options::of(&scene) };
     options.width = arguments.width.unwrap_or(options.width);
     options.height = arguments.height.unwrap_or(options.height);
-    options.samples = arguments
-        .samples
-        .or(arguments.quality.map(Quality::samples))
-        .unwrap_or(options.samples);
+    options.samples = arguments.samples.or(arguments.quality.map(Quality::samples)).unwrap_or(options.samples);
     options.region().map_err(|error| Failure::Usage(error.to_string()))?;
 
     let interrupt = Interrupt::listen();
@@ -115,10 +107,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let picture_file = open(&path)?;
     let stats_file = arguments.stats.as_deref().map(open).transpose()?;
 
-    let watch = Watch {
-        bar: progress_bar(arguments.quiet),
-        interrupt: interrupt.clone(),
-    };
+    let watch = Watch { bar: progress_bar(arguments.quiet), interrupt: interrupt.clone() };
     let rendered = render(&scene, &options, &watch);
     watch.bar.finish_and_clear();
     let rendered = rendered.map_err(|error| match error {
@@ -127,19 +116,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         error => Failure::Input(error.to_string()),
     })?;
 
-    let bytes = format
-        .encode(&rendered, &scene.picture)
-        .map_err(|error| Failure::Input(error.to_string()))?;
+    let bytes = format.encode(&rendered, &scene.picture).map_err(|error| Failure::Input(error.to_string()))?;
     if interrupt.is_requested() {
         return Err(Failure::Interrupted);
     }
     if let (Some(file), Some(path)) = (stats_file, &arguments.stats) {
-        file.write(statistics(&rendered).as_bytes())
-            .map_err(|error| cannot_write(path, &error))?;
+        file.write(statistics(&rendered).as_bytes()).map_err(|error| cannot_write(path, &error))?;
     }
-    picture_file
-        .write(&bytes)
-        .map_err(|error| cannot_write(&path, &error))?;
+    picture_file.write(&bytes).map_err(|error| cannot_write(&path, &error))?;
     if !arguments.quiet {
         summarise(&path, &rendered);
     }
@@ -164,17 +148,10 @@ fn output_path(arguments: &Arguments) -> Result<PathBuf, Failure> {
 fn instruction_set(name: &str) -> Result<freikugel::field::simd::Level, Failure> {
     use freikugel::field::simd;
     let levels = simd::available();
-    levels
-        .iter()
-        .copied()
-        .find(|&level| simd::name(level) == name)
-        .ok_or_else(|| {
-            let names: Vec<&str> = levels.into_iter().map(simd::name).collect();
-            Failure::Usage(format!(
-                "this machine has no instruction set {name:?}; it has {}",
-                names.join(", ")
-            ))
-        })
+    levels.iter().copied().find(|&level| simd::name(level) == name).ok_or_else(|| {
+        let names: Vec<&str> = levels.into_iter().map(simd::name).collect();
+        Failure::Usage(format!("this machine has no instruction set {name:?}; it has {}", names.join(", ")))
+    })
 }
 
 /// Shows how far a rendering has come, and stops it on Ctrl-C.
@@ -207,19 +184,10 @@ fn progress_bar(quiet: bool) -> ProgressBar {
 
 /// One line on what came out, and one on what did not.
 fn summarise(path: &Path, rendered: &Rendered) {
-    let Stats {
-        rays,
-        times,
-        unresolved,
-        ..
-    } = &rendered.stats;
+    let Stats { rays, times, unresolved, .. } = &rendered.stats;
     let (width, height) = (rendered.image.width(), rendered.image.height());
     let all = rays.camera + rays.shadow + rays.occlusion;
-    eprintln!(
-        "{}: {width} x {height}, {:.2} s, {all} rays",
-        path.display(),
-        times.wall.as_secs_f64()
-    );
+    eprintln!("{}: {width} x {height}, {:.2} s, {all} rays", path.display(), times.wall.as_secs_f64());
     if unresolved.camera + unresolved.shadow > 0 {
         let share = 100.0 * unresolved.pixels as f64 / rendered.image.pixels().len() as f64;
         eprintln!(
@@ -231,15 +199,7 @@ fn summarise(path: &Path, rendered: &Rendered) {
 
 /// Counts and times as JSON.
 fn statistics(rendered: &Rendered) -> String {
-    let Stats {
-        rays,
-        hits,
-        inside,
-        evaluations,
-        steps,
-        unresolved,
-        times,
-    } = &rendered.stats;
+    let Stats { rays, hits, inside, evaluations, steps, unresolved, times } = &rendered.stats;
     let value = serde_json::json!({
         "width": rendered.image.width(),
         "height": rendered.image.height(),

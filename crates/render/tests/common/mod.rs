@@ -17,18 +17,12 @@ use glam::DVec3;
 /// A scene with nothing in it: no light, black all around, to be traced as exactly as single precision allows.
 pub(crate) fn dark() -> Scene {
     Scene {
-        ambient: Ambient {
-            sky: [0.0; 3],
-            ground: [0.0; 3],
-        },
+        ambient: Ambient { sky: [0.0; 3], ground: [0.0; 3] },
         background: Background::Solid([0.0; 3]),
         occlusion: None,
         lights: Vec::new(),
         objects: Vec::new(),
-        tracing: Tracing {
-            precision: 1e-6,
-            ..Tracing::default()
-        },
+        tracing: Tracing { precision: 1e-6, ..Tracing::default() },
         ..Scene::default()
     }
 }
@@ -38,22 +32,12 @@ pub(crate) fn add(scene: &mut Scene, shape: impl Into<Field>, material: Material
     let id = MaterialId(scene.materials.len() as u32);
     scene.materials.push((format!("material {}", id.0), material));
     let name = format!("object {}", scene.objects.len());
-    scene.objects.push(Object {
-        name,
-        material: Some(id),
-        shape: shape.into(),
-    });
+    scene.objects.push(Object { name, material: Some(id), shape: shape.into() });
 }
 
 /// White, diffuse, nothing else.
 pub(crate) fn chalk() -> Material {
-    Material {
-        color: Pattern::Solid([1.0; 3]),
-        ambient: 1.0,
-        diffuse: 1.0,
-        specular: 0.0,
-        ..Material::default()
-    }
+    Material { color: Pattern::Solid([1.0; 3]), ambient: 1.0, diffuse: 1.0, specular: 0.0, ..Material::default() }
 }
 
 /// A view straight down from the height `z` onto the ground.
@@ -68,12 +52,7 @@ pub(crate) fn from_above(z: f64, height: f64) -> Camera {
 
 /// Small pictures through pixel centres.
 pub(crate) fn options(width: u32, height: u32) -> Options {
-    Options {
-        width,
-        height,
-        samples: 1,
-        ..Options::default()
-    }
+    Options { width, height, samples: 1, ..Options::default() }
 }
 
 /// Renders, all being well.
@@ -173,21 +152,11 @@ fn arriving(light: &Light, point: DVec3) -> (DVec3, f64, DVec3, Shadow) {
         Falloff::Polynomial([a, b, c]) => 1.0 / (f64::from(a) + f64::from(b) * r + f64::from(c) * r * r),
     };
     match light {
-        Light::Sun(sun) => (
-            sun.direction.normalize(),
-            f64::INFINITY,
-            power(sun.color, sun.intensity),
-            sun.shadow,
-        ),
+        Light::Sun(sun) => (sun.direction.normalize(), f64::INFINITY, power(sun.color, sun.intensity), sun.shadow),
         Light::Point(lamp) => {
             let way = lamp.position - point;
             let r = way.length();
-            (
-                way / r,
-                r,
-                power(lamp.color, lamp.intensity) * fall(lamp.falloff, r),
-                lamp.shadow,
-            )
+            (way / r, r, power(lamp.color, lamp.intensity) * fall(lamp.falloff, r), lamp.shadow)
         }
         Light::Spot(spot) => {
             let way = spot.position - point;
@@ -196,12 +165,7 @@ fn arriving(light: &Light, point: DVec3) -> (DVec3, f64, DVec3, Shadow) {
             let (outer, inner) = (spot.angle / 2.0, spot.angle / 2.0 * (1.0 - spot.softness));
             let x = ((cosine - outer.cos()) / (inner.cos() - outer.cos())).clamp(0.0, 1.0);
             let share = x * x * (3.0 - 2.0 * x);
-            (
-                way / r,
-                r,
-                power(spot.color, spot.intensity) * fall(spot.falloff, r) * share,
-                spot.shadow,
-            )
+            (way / r, r, power(spot.color, spot.intensity) * fall(spot.falloff, r) * share, spot.shadow)
         }
     }
 }

@@ -29,17 +29,12 @@ impl<C: Choice + Sync> Notation<C> for ChoiceNotation {
     }
 
     fn write(&self, value: &C) -> Option<Json> {
-        C::ALL
-            .iter()
-            .find(|entry| entry.0 == *value)
-            .map(|entry| json!(entry.1))
+        C::ALL.iter().find(|entry| entry.0 == *value).map(|entry| json!(entry.1))
     }
 
     fn schema(&self, _definitions: &mut Definitions) -> Json {
-        let values: Vec<Json> = C::ALL
-            .iter()
-            .map(|(_, name, about)| json!({ "const": name, "description": about }))
-            .collect();
+        let values: Vec<Json> =
+            C::ALL.iter().map(|(_, name, about)| json!({ "const": name, "description": about })).collect();
         json!({ "oneOf": values })
     }
 }

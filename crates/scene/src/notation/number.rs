@@ -25,48 +25,27 @@ enum Unit {
 
 impl Number {
     /// Any finite number.
-    pub(crate) const ANY: Self = Self {
-        least: None,
-        above: None,
-        most: None,
-        below: None,
-        unit: Unit::Plain,
-    };
+    pub(crate) const ANY: Self = Self { least: None, above: None, most: None, below: None, unit: Unit::Plain };
 
     pub(crate) const fn at_least(self, least: f64) -> Self {
-        Self {
-            least: Some(least),
-            ..self
-        }
+        Self { least: Some(least), ..self }
     }
 
     pub(crate) const fn above(self, above: f64) -> Self {
-        Self {
-            above: Some(above),
-            ..self
-        }
+        Self { above: Some(above), ..self }
     }
 
     pub(crate) const fn at_most(self, most: f64) -> Self {
-        Self {
-            most: Some(most),
-            ..self
-        }
+        Self { most: Some(most), ..self }
     }
 
     pub(crate) const fn below(self, below: f64) -> Self {
-        Self {
-            below: Some(below),
-            ..self
-        }
+        Self { below: Some(below), ..self }
     }
 
     /// The same range, in degrees.
     pub(crate) const fn degrees(self) -> Self {
-        Self {
-            unit: Unit::Degrees,
-            ..self
-        }
+        Self { unit: Unit::Degrees, ..self }
     }
 
     /// Why a number, in the unit of files, is out of range.
@@ -75,11 +54,7 @@ impl Number {
         let wanted = if !number.is_finite() {
             return Some("must be a finite number".into());
         } else if let Some(least) = self.least.filter(|&least| number < least) {
-            if least == 0.0 {
-                "not be negative".into()
-            } else {
-                format!("be at least {}{unit}", shown(least))
-            }
+            if least == 0.0 { "not be negative".into() } else { format!("be at least {}{unit}", shown(least)) }
         } else if let Some(above) = self.above.filter(|&above| number <= above) {
             format!("be above {}{unit}", shown(above))
         } else if let Some(most) = self.most.filter(|&most| number > most) {
@@ -111,27 +86,15 @@ impl Notation<f64> for Number {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<f64> {
         let number = reader.number(value)?;
         let number = reader.sound(value, number, self.misplaced(number))?;
-        Some(if self.unit == Unit::Degrees {
-            number.to_radians()
-        } else {
-            number
-        })
+        Some(if self.unit == Unit::Degrees { number.to_radians() } else { number })
     }
 
     fn fault(&self, value: &f64) -> Option<String> {
-        self.misplaced(if self.unit == Unit::Degrees {
-            rounded_degrees(*value)
-        } else {
-            *value
-        })
+        self.misplaced(if self.unit == Unit::Degrees { rounded_degrees(*value) } else { *value })
     }
 
     fn write(&self, value: &f64) -> Option<Json> {
-        Some(tidy(if self.unit == Unit::Degrees {
-            rounded_degrees(*value)
-        } else {
-            *value
-        }))
+        Some(tidy(if self.unit == Unit::Degrees { rounded_degrees(*value) } else { *value }))
     }
 
     fn schema(&self, _definitions: &mut Definitions) -> Json {
@@ -143,9 +106,7 @@ impl Notation<f32> for Number {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<f32> {
         let number: f64 = self.read(reader, value)?;
         let narrow = number as f32;
-        let fault = narrow
-            .is_infinite()
-            .then(|| format!("is too large: it can be up to {:e}", f32::MAX));
+        let fault = narrow.is_infinite().then(|| format!("is too large: it can be up to {:e}", f32::MAX));
         reader.sound(value, narrow, fault)
     }
 
@@ -209,11 +170,7 @@ pub(crate) fn tidy_f32(number: f32) -> Json {
 
 /// A number in a message: short, whatever its size.
 pub(crate) fn shown(number: f64) -> String {
-    if number != 0.0 && !(1e-4..1e10).contains(&number.abs()) {
-        format!("{number:e}")
-    } else {
-        number.to_string()
-    }
+    if number != 0.0 && !(1e-4..1e10).contains(&number.abs()) { format!("{number:e}") } else { number.to_string() }
 }
 
 /// `true` or `false`.

@@ -11,14 +11,10 @@ use glam::DVec3;
 use serde_json::{Value as Json, json};
 
 /// A point: `[x, y, z]`.
-pub(crate) const POINT: Vector = Vector {
-    kind: ParamKind::Vector,
-};
+pub(crate) const POINT: Vector = Vector { kind: ParamKind::Vector };
 
 /// A direction of any length above 0: `[x, y, z]`, or an axis by name.
-pub(crate) const DIRECTION: Vector = Vector {
-    kind: ParamKind::Direction,
-};
+pub(crate) const DIRECTION: Vector = Vector { kind: ParamKind::Direction };
 
 /// Three numbers.
 #[derive(Debug)]
@@ -38,10 +34,7 @@ const AXES: [(&str, DVec3); 6] = [
 
 /// The direction that a text names, reporting one that names none.
 pub(crate) fn named_direction(reader: &mut Reader, value: &Written<'_>, name: &str) -> Option<DVec3> {
-    let direction = AXES
-        .iter()
-        .find(|(axis, _)| *axis == name)
-        .map(|&(_, direction)| direction);
+    let direction = AXES.iter().find(|(axis, _)| *axis == name).map(|&(_, direction)| direction);
     if direction.is_none() {
         let message = format!("{} can't be {}", reader.label(), quote(name));
         let hint = "a direction is [x, y, z], or one of \"x\", \"y\", \"z\", \"-x\", \"-y\", \"-z\"";

@@ -40,11 +40,7 @@ impl Notation<Vec<f64>> for ParamKind {
             (Self::Quaternion, _) => reader.numbers(value, ["x", "y", "z", "w"])?.to_vec(),
             (Self::HalfSpaces, _) => half_spaces(reader, value)?,
         };
-        let fault = if numbers.is_empty() {
-            Some(NO_ENTRIES.into())
-        } else {
-            ParamKind::fault(*self, &numbers)
-        };
+        let fault = if numbers.is_empty() { Some(NO_ENTRIES.into()) } else { ParamKind::fault(*self, &numbers) };
         reader.sound(value, numbers, fault)
     }
 
@@ -142,8 +138,7 @@ mod tests {
     fn read(kind: ParamKind, text: &str) -> Result<Vec<f64>, String> {
         let mut reader = Reader::new();
         let value = parse(text, &mut reader.diagnostics).expect("JSON");
-        kind.read(&mut reader, &value)
-            .ok_or_else(|| reader.diagnostics[0].message.clone())
+        kind.read(&mut reader, &value).ok_or_else(|| reader.diagnostics[0].message.clone())
     }
 
     #[test]
@@ -157,11 +152,7 @@ mod tests {
             (ParamKind::Size, "2", vec![2.0; 3]),
             (ParamKind::Flag, "true", vec![1.0]),
             (ParamKind::Quaternion, "[0, 0, 0, 1]", vec![0.0, 0.0, 0.0, 1.0]),
-            (
-                ParamKind::HalfSpaces,
-                "[[1, 0, 0, 1], [0, 1, 0, 2]]",
-                vec![1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 2.0],
-            ),
+            (ParamKind::HalfSpaces, "[[1, 0, 0, 1], [0, 1, 0, 2]]", vec![1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 2.0]),
             (ORDER, "\"3\"", vec![1.0]),
             (ORDER, "3", vec![1.0]),
             (ORDER, "2.0", vec![0.0]),
