@@ -21,7 +21,7 @@ pub(crate) fn write(root: &Path) -> Result {
     std::fs::write(&path, list(root)?).map_err(|e| format!("can't write {}: {e}", path.display()))
 }
 
-/// Fails if the list is not what [`write`] would write.
+/// Fails if the list is not what [`write()`] would write.
 pub(crate) fn check() -> Result {
     let root = root();
     let present = std::fs::read_to_string(root.join(LIST)).map_err(|e| format!("can't read {LIST}: {e}"))?;

@@ -122,6 +122,17 @@ impl Program {
         natural.meet(center + Interval::new(-drift.hi(), drift.hi()))
     }
 
+    /// [`Program::interval`] for several boxes.
+    ///
+    /// # Panics
+    /// If `out` has not as many places as there are boxes.
+    pub fn intervals(&self, regions: &[[Interval; 3]], out: &mut [Interval]) {
+        assert_eq!(regions.len(), out.len(), "one place for each box");
+        for (region, out) in regions.iter().zip(out) {
+            *out = self.interval(*region);
+        }
+    }
+
     /// Records the field's formula. The constants of its operations are the slots of the graph, in the order of
     /// [`Program::constants`].
     pub fn expression<'g>(&self, graph: &'g Graph) -> Expr<'g> {
