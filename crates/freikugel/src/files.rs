@@ -143,7 +143,9 @@ impl Output {
             // As any new file: what the user's mask leaves.
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
-        Ok(Self(Target::Beside(builder.tempfile_in(folder)?, path)))
+        // The reason is of interest, not the name of the file beside it.
+        let file = builder.tempfile_in(folder).map_err(|error| io::Error::from(error.kind()))?;
+        Ok(Self(Target::Beside(file, path)))
     }
 
     /// The file beside it that must not stay if the program ends early.

@@ -67,7 +67,10 @@ fn describe(shape: &Shape) -> String {
     if !about.elsewhere.is_empty() {
         let _ = writeln!(text, "\nKnown elsewhere as: {}", about.elsewhere.join(", "));
     }
-    let _ = writeln!(text, "\nExample:\n  {}", about.example);
+    text.push_str("\nExample:\n");
+    for (number, line) in about.example.lines().enumerate() {
+        let _ = writeln!(text, "{:indent$}{}", "", line.trim(), indent = if number == 0 { 2 } else { 4 });
+    }
     text
 }
 
