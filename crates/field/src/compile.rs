@@ -6,10 +6,9 @@
 
 use crate::field::{Field, MaterialId, Node};
 use crate::kernel::AFFINE_CONSTANTS;
-use crate::operation::{Code, Derive, Link, Op, Registers};
+use crate::operation::{Code, Derive, Link, Op, Region, Registers};
 use crate::shape::{CombineTable, Kind, PlaceTable};
 use crate::shapes;
-use crate::structure::Region;
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 

@@ -46,19 +46,21 @@ pub use contract::{Aabb, Contract, Extent, Metric};
 pub use diagnostic::{Diagnostic, Severity};
 pub use evaluator::{Evaluator, Points, Shares};
 pub use field::{Axis, Field, Form, MaterialId, Node, Origin, Triple, Value};
+pub use operation::Region;
 pub use program::Program;
 pub use scalar::{Constants, Dual, Interval, Scalar};
 pub use shape::{Arity, Kind, Param, ParamKind, Shape};
-pub use structure::{Region, Structure};
+pub use structure::Structure;
 pub use vector::{Vec3, vec3};
 
 /// What the files under `shapes/` need.
 mod shape_prelude {
     pub(crate) use crate::contract::{Contract, Metric};
     pub(crate) use crate::field::{Field, Form, Triple, Value};
-    pub(crate) use crate::ray::ExactForm;
     pub(crate) use crate::scalar::{Constants, Scalar};
-    pub(crate) use crate::shape::{AXIS, About, Combine, Hull, Modify, Param, ParamKind, Place, Primitive, Shape};
+    pub(crate) use crate::shape::{
+        AXIS, About, Combine, ExactForm, Hull, Modify, Param, ParamKind, Place, Primitive, Shape,
+    };
     pub(crate) use crate::vector::{Vec3, vec3};
     pub(crate) use glam::{DAffine3, DMat3, DQuat, DVec3};
 }

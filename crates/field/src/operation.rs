@@ -1,11 +1,20 @@
 //! What programs are made of: operations, and how their constants follow from the numbers of a tree.
 
 use crate::analysis::axis_map;
+use crate::field::MaterialId;
 use crate::shape::{CombineTable, ModifyTable, PlaceTable, PrimitiveTable};
-use crate::structure::Region;
 use glam::{DMat3, DVec3};
 use std::collections::BTreeSet;
 use std::ops::Range;
+
+/// A part of the surface that shades as one: an object, or what is painted within it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Region {
+    /// The index of the object among those compiled.
+    pub object: usize,
+    /// The innermost material painted, if any.
+    pub material: Option<MaterialId>,
+}
 
 /// The operations of a structure.
 #[derive(Debug)]

@@ -2,18 +2,8 @@
 
 use crate::analysis::{axis_map, place_map};
 use crate::field::Field;
-use crate::shape::Kind;
+use crate::shape::{ExactForm, Kind};
 use glam::{DAffine3, DMat3, DVec3};
-
-/// A surface that rays are intersected with in closed form. Normals have length 1; offsets are along them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs, reason = "described above")]
-pub enum ExactForm {
-    /// Everything behind a plane.
-    HalfSpace { normal: DVec3, offset: f64 },
-    /// A plane without thickness.
-    Sheet { normal: DVec3, offset: f64 },
-}
 
 /// A field that is nothing but one placed and painted primitive with an exact intersection.
 #[derive(Clone, Copy, Debug)]

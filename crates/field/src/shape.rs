@@ -11,7 +11,6 @@
 
 use crate::contract::Contract;
 use crate::kernel::{CombineKernels, ModifyKernels, PrimitiveKernels};
-use crate::ray::ExactForm;
 use crate::scalar::{Constants, Scalar};
 use crate::vector::Vec3;
 use glam::{DAffine3, DVec3};
@@ -180,6 +179,16 @@ pub trait Primitive: 'static {
 
     /// The formula. Write `#[inline(always)]` before it: a formula that is not inlined loses the instruction set.
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S;
+}
+
+/// A surface that rays are intersected with in closed form. Normals have length 1; offsets are along them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs, reason = "described above")]
+pub enum ExactForm {
+    /// Everything behind a plane.
+    HalfSpace { normal: DVec3, offset: f64 },
+    /// A plane without thickness.
+    Sheet { normal: DVec3, offset: f64 },
 }
 
 /// Several fields made into one, folded from left to right.

@@ -8,20 +8,11 @@
 use crate::analysis::analyse;
 use crate::compile::compile;
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::field::{Field, MaterialId};
-use crate::operation::Code;
+use crate::field::Field;
+use crate::operation::{Code, Region};
 use crate::program::{BindError, Program};
 use glam::DVec3;
 use std::sync::Arc;
-
-/// A part of the surface that shades as one: an object, or what is painted within it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Region {
-    /// The index of the object among those compiled.
-    pub object: usize,
-    /// The innermost material painted, if any.
-    pub material: Option<MaterialId>,
-}
 
 /// A compiled union of fields, without its numbers.
 #[derive(Clone, Debug)]
