@@ -11,8 +11,9 @@ record! {
         pub max_distance: f64 = 1000.0, optional Number::ANY.above(0.0), setter max_distance;
         /// How near to a surface a ray must come to hit it, as a share of the distance it has gone.
         pub precision: f64 = 1e-4, optional Number::ANY.above(0.0).at_most(0.1), setter precision;
-        /// How many steps a ray may take before it counts as unresolved.
-        pub max_steps: u32 = 256, optional Number::ANY.at_least(1.0).at_most(MOST_STEPS), setter max_steps;
+        /// How many steps a ray may take before it counts as unresolved. Few rays come near the default, those that graze
+        /// a long flat face, so that it costs no time.
+        pub max_steps: u32 = 1024, optional Number::ANY.at_least(1.0).at_most(MOST_STEPS), setter max_steps;
         /// The share of the free distance that a step goes.
         pub step_factor: f64 = 1.0, optional Number::ANY.above(0.0).at_most(1.0), setter step_factor;
     }
