@@ -66,8 +66,8 @@ pub(crate) fn shape() -> Result {
     let file = format!("crates/field/src/shapes/{NAME}.rs");
     std::fs::write(scratch.join(&file), TEMPLATE).map_err(|e| e.to_string())?;
     shapes::write(&scratch)?;
-    // Same target folder: dependencies are built already.
-    let target = from.join("target");
+    // Not the workspace's own target folder: the copy's crates have the same names and would pass for the real ones.
+    let target = from.join("target/probe/target");
     let target = target.to_str().ok_or("the path of the target folder is no text")?;
     std::fs::write(scratch.join(".cargo/config.toml"), format!("[build]\ntarget-dir = {target:?}\n"))
         .map_err(|e| e.to_string())?;
