@@ -184,28 +184,13 @@ fn support(field: &Field, direction: DVec3, level: f64) -> f64 {
             (table.support)(&args, direction, level)
         }
         Kind::Combine(table) => {
-            // Folded from the left, hence the levels unfold from the right.
-            let mut level = level;
-            let mut bound: Option<f64> = None;
-            for (index, child) in node.children.iter().enumerate().rev() {
-                let own = if index == 0 {
-                    level
-                } else {
-                    let (rest, own) = (table.levels)(&args, level);
-                    level = rest;
-                    own
-                };
-                if index > 0 && table.hull == Hull::First {
-                    continue;
-                }
-                let here = support(child, direction, own);
-                bound = Some(match (bound, table.hull) {
-                    (None, _) => here,
-                    (Some(bound), Hull::Both) => bound.max(here),
-                    (Some(bound), Hull::Common | Hull::First) => bound.min(here),
-                });
+            let level = (table.level)(&args, level, node.children.len());
+            let supports = node.children.iter().map(|child| support(child, direction, level));
+            match table.hull {
+                Hull::Both => supports.fold(f64::NEG_INFINITY, f64::max),
+                Hull::Common => supports.fold(f64::INFINITY, f64::min),
+                Hull::First => supports.take(1).fold(f64::INFINITY, f64::min),
             }
-            bound.unwrap_or(f64::NEG_INFINITY)
         }
         Kind::Place(table) => {
             let map = (table.map)(&args);

@@ -213,9 +213,10 @@ pub trait Combine: 'static {
     /// How the support of the result follows from those of the operands; see [`Primitive::support`].
     const HULL: Hull;
 
-    /// The levels of the two operands that decide where the result is at most `level`.
-    fn levels(_args: &[f64], level: f64) -> (f64, f64) {
-        (level, level)
+    /// The level that `count` operands reach wherever their combination is at most `level`: at least one of them, or all of
+    /// them, or the first, as [`Combine::HULL`] says.
+    fn level(_args: &[f64], level: f64, _count: usize) -> f64 {
+        level
     }
 
     /// The formula. Write `#[inline(always)]` before it: a formula that is not inlined loses the instruction set.
@@ -334,7 +335,7 @@ pub struct CombineTable {
     pub prepare: fn(&[f64]) -> Vec<f64>,
     pub contract: fn(&[f64], Contract, Contract) -> Result<Contract, String>,
     pub hull: Hull,
-    pub levels: fn(&[f64], f64) -> (f64, f64),
+    pub level: fn(&[f64], f64, usize) -> f64,
     pub kernels: CombineKernels,
 }
 
@@ -385,7 +386,7 @@ impl Shape {
                 prepare: C::prepare,
                 contract: C::contract,
                 hull: C::HULL,
-                levels: C::levels,
+                level: C::level,
                 kernels: CombineKernels::of::<C>(),
             }),
         }

@@ -225,6 +225,25 @@ fn the_extent_of_primitives_under_maps_is_tight() {
 }
 
 #[test]
+fn the_extent_of_a_blend_of_many_stays_near() {
+    use freikugel_field::shapes::*;
+    let extent_of = |field: &Field| match extent(field) {
+        Extent::Finite(aabb) => aabb,
+        other => panic!("{other:?}"),
+    };
+    for order in [0.0, 1.0] {
+        // Equal operands bulge most: on the axis the surface lies where the folded value vanishes.
+        let blend = smooth_union(0.4, (0..200).map(|_| sphere(1.0))).with("order", &[order.into()]);
+        let (aabb, program) = (extent_of(&blend), program(&blend));
+        assert!(program.value(DVec3::X * aabb.max.x) >= 0.0);
+        assert!(program.value(DVec3::X * (aabb.max.x - 0.1)) < 0.0, "a hundred steps come near k");
+        assert!((aabb.max.x - 1.4).abs() < 1e-12, "{aabb:?}");
+    }
+    let two = extent_of(&smooth_union(0.4, [sphere(1.0), sphere(1.0)]));
+    assert!((two.max.x - 1.1).abs() < 1e-12, "{two:?}");
+}
+
+#[test]
 fn metrics_are_as_claimed() {
     use freikugel_field::shapes::*;
     let metric = |field: Field| {

@@ -26,6 +26,14 @@ pub(crate) fn depth(args: &[f64]) -> f64 {
     args[0] / (2.0 * order(args))
 }
 
+/// The most that folding `count` operands takes off their minimum.
+///
+/// Each step takes off at most [`depth`]; and never do all together take off more than k: where the running value is g below
+/// the smallest operand, the next step adds at most depth (1 - g/k)^n to g, which stays below k.
+pub(crate) fn total_depth(args: &[f64], count: usize) -> f64 {
+    (depth(args) * count.saturating_sub(1) as f64).min(args[0])
+}
+
 fn order(args: &[f64]) -> f64 {
     2.0 + args[1]
 }

@@ -41,9 +41,8 @@ impl Combine for SmoothUnion {
         Ok(a.worse_of(b).at_most_bound())
     }
 
-    fn levels(args: &[f64], level: f64) -> (f64, f64) {
-        let level = level + polynomial::depth(args);
-        (level, level)
+    fn level(args: &[f64], level: f64, count: usize) -> f64 {
+        level + polynomial::total_depth(args, count)
     }
 
     #[inline(always)]
