@@ -7,7 +7,7 @@ use crate::run::{Result, SCHEMA, output, root, run, schema};
 use crate::shapes;
 use std::path::Path;
 
-/// A shape that no other system has: an octahedral bound, for a point's sum of coordinates.
+/// A shape that the project does not have: an octahedron, as the bound that its faces' planes give.
 const TEMPLATE: &str = r##"//! Probe: the octahedron as a bound.
 
 use crate::shape_prelude::*;

@@ -8,7 +8,7 @@ use crate::contract::{Aabb, Contract, Extent};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::field::{Field, Node};
 use crate::shape::{Arity, Hull, Kind};
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DMat3, DVec3};
 
 /// The deepest nesting a field may have; deeper ones would exhaust the stack of a small thread.
 pub const MAX_DEPTH: u32 = 512;
@@ -211,16 +211,5 @@ pub(crate) fn axis_map(axis: usize) -> DMat3 {
         0 => DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X),
         1 => DMat3::from_cols(DVec3::Z, DVec3::X, DVec3::Y),
         _ => DMat3::IDENTITY,
-    }
-}
-
-/// The map from a placed node's child to the node's own space, as one factor of a chain.
-pub(crate) fn place_map(node: &Node) -> Option<(DAffine3, f64)> {
-    match &node.shape.kind {
-        Kind::Place(table) => {
-            let args = node.numbers();
-            Some(((table.map)(&args), (table.factor)(&args)))
-        }
-        _ => None,
     }
 }

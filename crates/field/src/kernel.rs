@@ -3,7 +3,7 @@
 //! A batch is at most [`BATCH`] points in structure-of-arrays form. A number of a type with `C` components (1 for plain
 //! values, 4 for values with gradients) takes `C` consecutive [`Block`]s. Kernels are called through pointers, once for
 //! each batch, and never work in place: a select between a new number and the one that is there would become a masked
-//! store, which some processors take twenty cycles for. Inside, the formula and everything below it is inlined and compiled for one instruction set.
+//! store, which is slow on some processors. Inside, the formula and everything below it is inlined and compiled for one instruction set.
 
 use crate::expr::Expr;
 use crate::scalar::{Constants, Dual, Interval, Lanes, Scalar};

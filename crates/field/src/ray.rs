@@ -1,6 +1,6 @@
 //! Exact ray intersections, for shapes that have one and profit from it: planes, which a marched ray only crawls along.
 
-use crate::analysis::{axis_map, place_map};
+use crate::analysis::axis_map;
 use crate::field::Field;
 use crate::shape::{ExactForm, Kind};
 use glam::{DAffine3, DMat3, DVec3};
@@ -23,7 +23,7 @@ impl ExactRay {
                     }
                     return (table.exact_form)(&node.numbers()).map(|form| Self(form.mapped(&map)));
                 }
-                Kind::Place(_) => map *= place_map(node)?.0,
+                Kind::Place(table) => map *= (table.map)(&node.numbers()),
                 Kind::Paint => {}
                 Kind::Combine(_) if node.children.len() == 1 => {}
                 Kind::Combine(_) | Kind::Modify(_) => return None,

@@ -1,5 +1,6 @@
 //! Pictures of linear colours, and how they become bytes: exposure, what is brighter than white, sRGB.
 
+use freikugel_scene::color::linear;
 use freikugel_scene::{Overbright, Picture};
 use std::sync::LazyLock;
 
@@ -86,11 +87,6 @@ impl Default for Tone {
     }
 }
 
-/// The linear value of an sRGB value, both from 0 to 1 (IEC 61966-2-1).
-pub fn srgb_decode(encoded: f64) -> f64 {
-    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
-}
-
 /// The sRGB byte nearest to a linear value; values outside 0 to 1 are clamped, and what is no number is 0.
 pub fn srgb_encode8(linear: f32) -> u8 {
     ENCODER.encode(linear)
@@ -111,7 +107,7 @@ struct Encoder {
 static ENCODER: LazyLock<Encoder> = LazyLock::new(|| {
     let mut borders = [f32::INFINITY; 256];
     for (code, border) in borders[..255].iter_mut().enumerate() {
-        let exact = srgb_decode((code as f64 + 0.5) / 255.0);
+        let exact = linear((code as f64 + 0.5) / 255.0);
         let nearest = exact as f32;
         *border = if f64::from(nearest) < exact { nearest.next_up() } else { nearest };
     }
@@ -147,7 +143,7 @@ mod tests {
     #[test]
     fn every_code_survives_decoding_and_encoding() {
         for code in 0..=255u8 {
-            assert_eq!(srgb_encode8(srgb_decode(f64::from(code) / 255.0) as f32), code);
+            assert_eq!(srgb_encode8(linear(f64::from(code) / 255.0) as f32), code);
         }
     }
 

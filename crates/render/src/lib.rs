@@ -54,7 +54,7 @@ mod vector;
 mod view;
 
 pub use encode::{EncodeError, encode_exr, encode_png};
-pub use image::{Image, Tone, srgb_decode, srgb_encode8};
+pub use image::{Image, Tone, srgb_encode8};
 pub use layers::{Layer, Layers};
 pub use options::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_TILE, Options, OptionsError, Rect};
 pub use prepare::{PrepareError, Renderer};

@@ -45,7 +45,7 @@ fn check(name: &str, scene: &Scene, tone: &Tone) {
         let row = |y: usize| panels.iter().flat_map(move |panel| panel[y * 192..(y + 1) * 192].chunks(3));
         let colors = (0..48)
             .flat_map(row)
-            .map(|p| [p[0], p[1], p[2]].map(|c| freikugel_render::srgb_decode(f64::from(c) / 255.0) as f32))
+            .map(|p| [p[0], p[1], p[2]].map(|c| freikugel_scene::color::linear(f64::from(c) / 255.0) as f32))
             .collect();
         let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("golden");
         fs::create_dir_all(&directory).expect("a place for the difference");

@@ -37,11 +37,11 @@ pub fn from_hex(text: &str) -> Option<Rgb> {
         6 => u8::from_str_radix(&digits[2 * index..2 * index + 2], 16).ok(),
         _ => None,
     };
-    Some([channel(0)?, channel(1)?, channel(2)?].map(|value| linear(f32::from(value) / 255.0)))
+    Some([channel(0)?, channel(1)?, channel(2)?].map(|value| linear(f64::from(value) / 255.0) as f32))
 }
 
 /// The linear light of an sRGB value in `[0, 1]` (IEC 61966-2-1).
-pub fn linear(encoded: f32) -> f32 {
+pub fn linear(encoded: f64) -> f64 {
     if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
