@@ -1,13 +1,13 @@
-//! From trees to operations on two banks of registers, one for points and one for values.
+//! From trees to steps.
 //!
 //! Chains of affine maps are joined into one; a mere translation costs nothing, since every primitive subtracts one anyway;
-//! a primitive under a union is folded into the running minimum in one kernel. Each operation's constants are described
-//! by a [`Derive`], which binding evaluates in `f64`.
+//! nested unions become one chain of minima. Each step's constants are described by a [`Derive`], which binding evaluates
+//! in `f64`.
 
 use crate::field::{Field, MaterialId, Node};
 use crate::kernel::AFFINE_CONSTANTS;
-use crate::operation::{Code, Derive, Link, Op, Region, Registers};
-use crate::shape::{CombineTable, Kind, PlaceTable};
+use crate::operation::{Code, Derive, Link, Region, Run, Step, StepId, Steps};
+use crate::shape::{CombineTable, Kind};
 use crate::shapes;
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
@@ -15,23 +15,18 @@ use std::ops::Range;
 /// The axis that formulas of axial shapes are written for: a shape along it needs no map.
 const FORMULA_AXIS: usize = 2;
 
-/// The operations for the union of `objects`, which are sound, and the numbers of the trees in the order of their slots.
-pub(crate) fn compile(objects: &[Field]) -> (Code, Vec<f64>) {
+/// The steps for the union of `objects`, which are sound, and the numbers of the trees in the order of their slots.
+pub(crate) fn compile(objects: &[Field]) -> (Code, Steps, Vec<f64>) {
     let mut compiler = Compiler::default();
     let trees: Vec<Slotted<'_>> = objects.iter().map(|object| compiler.slots(object)).collect();
-    let (ops, registers) = compiler.emit_objects(&trees, true);
-    let (share_ops, share_registers) = compiler.emit_objects(&trees, false);
+    let result = compiler.emit_objects(&trees);
     let code = Code {
-        ops,
-        share_ops,
         derive: compiler.derive,
         constants: compiler.constants,
-        registers,
-        share_registers,
         regions: compiler.regions,
         fixed: compiler.fixed,
     };
-    (code, compiler.values)
+    (code, Steps { list: compiler.steps, result }, compiler.values)
 }
 
 /// A tree whose numbers have got their slots.
@@ -44,40 +39,21 @@ struct Slotted<'f> {
 #[derive(Default)]
 struct Compiler {
     values: Vec<f64>,
+    steps: Vec<Step>,
     derive: Vec<Derive>,
     constants: usize,
     regions: Vec<Region>,
-    region_index: HashMap<Region, usize>,
+    region_index: HashMap<Region, u32>,
     fixed: BTreeSet<usize>,
-    /// Where the constants of each `Derive` in `derive` that was requested before lie, by what it was requested for.
-    known: HashMap<Wanted, Range<usize>>,
+    /// The object that is being compiled.
+    object: usize,
 }
 
-/// Identifies a run of constants, so that both lists of operations share them.
-#[derive(PartialEq, Eq, Hash)]
-enum Wanted {
-    Prepare(usize),
-    Offset(Vec<usize>, bool),
-    Affine(Vec<usize>, bool),
-    Factor(usize),
-}
-
-/// The space a node is evaluated in: a register, and the maps that still lie between it and the node.
+/// The space a node is evaluated in: a point, and the maps that still lie between it and the node.
 #[derive(Clone)]
 struct Space {
-    point: usize,
+    point: StepId,
     chain: Vec<Link>,
-}
-
-/// The state of one emission.
-struct Emission {
-    ops: Vec<Op>,
-    /// Whether primitives fold into minima and registers are used again.
-    fuse: bool,
-    registers: Registers,
-    free_points: Vec<usize>,
-    free_values: Vec<usize>,
-    object: usize,
 }
 
 impl Compiler {
@@ -89,59 +65,55 @@ impl Compiler {
         Slotted { node, args, children: node.children.iter().map(|child| self.slots(child)).collect() }
     }
 
-    fn emit_objects(&mut self, objects: &[Slotted<'_>], fuse: bool) -> (Vec<Op>, Registers) {
-        let registers = Registers { points: 1, values: 0, result: 0 };
-        let mut emission =
-            Emission { ops: Vec::new(), fuse, registers, free_points: Vec::new(), free_values: Vec::new(), object: 0 };
-        let root = Space { point: 0, chain: Vec::new() };
+    fn push(&mut self, step: Step) -> StepId {
+        let id = u32::try_from(self.steps.len()).expect("less than 2^32 steps");
+        self.steps.push(step);
+        StepId(id)
+    }
+
+    fn emit_objects(&mut self, objects: &[Slotted<'_>]) -> Option<StepId> {
+        let point = self.push(Step::Point);
+        let root = Space { point, chain: Vec::new() };
         let Kind::Combine(union) = &shapes::UNION.kind else { unreachable!("union combines") };
         let mut result = None;
         for (index, object) in objects.iter().enumerate() {
-            emission.object = index;
+            self.object = index;
             result = Some(match result {
-                None => self.emit(&mut emission, object, &root, None, None),
-                Some(before) => self.emit_folded(&mut emission, object, &root, None, before, (union, 0..0)),
+                None => self.emit(object, &root, None, None),
+                Some(before) => self.emit_folded(object, &root, None, before, (union, Run::default(), Run::default())),
             });
         }
-        emission.registers.result = result.unwrap_or(0);
-        emission.registers.values = emission.registers.values.max(1);
-        (emission.ops, emission.registers)
+        result
     }
 
-    /// Emits `tree` and combines it with the value in register `before`. Returns the register of the result.
+    /// Emits `tree` and combines it with the value of the step `before`.
     fn emit_folded(
         &mut self,
-        emission: &mut Emission,
         tree: &Slotted<'_>,
         space: &Space,
         material: Option<MaterialId>,
-        before: usize,
-        (table, constants): (&'static CombineTable, Range<usize>),
-    ) -> usize {
-        if emission.fuse && table.is_minimum && can_fold(tree.node) {
-            return self.emit(emission, tree, space, material, Some(before));
+        before: StepId,
+        (table, args, constants): (&'static CombineTable, Run, Run),
+    ) -> StepId {
+        if table.is_minimum && can_fold(tree.node) {
+            return self.emit(tree, space, material, Some(before));
         }
-        let b = self.emit(emission, tree, space, material, None);
-        let out = emission.value_register();
-        emission.ops.push(Op::Combine { table, a: before, b, out, constants });
-        emission.release_value(before);
-        emission.release_value(b);
-        out
+        let b = self.emit(tree, space, material, None);
+        self.push(Step::Combine { table, a: before, b, args, constants })
     }
 
-    /// Emits `tree`, or its minimum with the value in register `before`. Returns the register of the result.
+    /// Emits `tree`, or its minimum with the value of the step `before`.
     fn emit(
         &mut self,
-        emission: &mut Emission,
         tree: &Slotted<'_>,
         space: &Space,
         material: Option<MaterialId>,
-        before: Option<usize>,
-    ) -> usize {
+        before: Option<StepId>,
+    ) -> StepId {
         let node = tree.node;
+        let args = Run::from(tree.args.clone());
         match &node.shape.kind {
             Kind::Primitive(table) => {
-                let outer = space;
                 let mut space = space.clone();
                 if let Some(axis) = node.axis() {
                     let arg = tree.args.end - 1;
@@ -151,138 +123,93 @@ impl Compiler {
                     }
                 }
                 if !space.chain.iter().all(Link::is_translation) {
-                    space = self.materialise(emission, &space);
+                    space = self.materialise(&space);
                 }
                 let at = self.offset(&space);
                 let constants = self.prepared(table.prepare, &tree.args);
-                let out = emission.value_register();
-                let region = self.region(Region { object: emission.object, material });
-                emission.ops.push(Op::Primitive { table, point: space.point, at, constants, before, out, region });
-                if let Some(before) = before {
-                    emission.release_value(before);
+                let region = self.region(Region { object: self.object, material });
+                let value = self.push(Step::Primitive { table, point: space.point, at, args, constants, region });
+                match before {
+                    None => value,
+                    Some(before) => {
+                        let Kind::Combine(table) = &shapes::UNION.kind else { unreachable!("union combines") };
+                        let none = Run::default();
+                        self.push(Step::Combine { table, a: before, b: value, args: none, constants: none })
+                    }
                 }
-                emission.release(&space, outer);
-                out
             }
             Kind::Combine(table) => {
                 // Several children would each repeat the map.
-                let outer = space;
                 let space = if space.chain.iter().all(Link::is_translation) || tree.children.len() == 1 {
                     space.clone()
                 } else {
-                    self.materialise(emission, space)
+                    self.materialise(space)
                 };
                 let constants = self.prepared(table.prepare, &tree.args);
                 let mut children = tree.children.iter();
                 let Some(first) = children.next() else { unreachable!("analysis refuses empty combinations") };
-                let mut result = self.emit(emission, first, &space, material, before);
+                let mut result = self.emit(first, &space, material, before);
                 for child in children {
-                    result = self.emit_folded(emission, child, &space, material, result, (table, constants.clone()));
+                    result = self.emit_folded(child, &space, material, result, (table, args, constants));
                 }
-                emission.release(&space, outer);
                 result
             }
             Kind::Place(table) => {
                 let mut space = space.clone();
                 space.chain.push(Link::Place { table, args: tree.args.clone() });
-                let from = self.emit(emission, &tree.children[0], &space, material, before);
+                let from = self.emit(&tree.children[0], &space, material, before);
                 if is_rigid(node) {
                     return from;
                 }
-                let (factor, out) = (self.factor(table, &tree.args), emission.value_register());
-                emission.ops.push(Op::Scale { from, out, factor });
-                emission.release_value(from);
-                out
+                let factor = self.derived(1, |out| Derive::Factor { table, args: tree.args.clone(), out: out.start });
+                self.push(Step::Scale { from, factor: factor.start() as u32 })
             }
             Kind::Modify(table) => {
-                let from = self.emit(emission, &tree.children[0], space, material, before);
-                let (constants, out) = (self.prepared(table.prepare, &tree.args), emission.value_register());
-                emission.ops.push(Op::Modify { table, from, out, constants });
-                emission.release_value(from);
-                out
+                let from = self.emit(&tree.children[0], space, material, before);
+                let constants = self.prepared(table.prepare, &tree.args);
+                self.push(Step::Modify { table, from, args, constants })
             }
             Kind::Paint => {
                 let material = node.material.or(material);
-                self.emit(emission, &tree.children[0], space, material, before)
+                self.emit(&tree.children[0], space, material, before)
             }
         }
     }
 
-    /// Applies the pending maps of `space` to its points.
-    fn materialise(&mut self, emission: &mut Emission, space: &Space) -> Space {
-        let from_root = space.point == 0;
-        let wanted = Wanted::Affine(space.chain.iter().map(Link::slot).collect(), from_root);
+    /// Applies the pending maps of `space` to its point.
+    fn materialise(&mut self, space: &Space) -> Space {
+        let from_root = space.point == StepId::POINT;
         let chain = space.chain.clone();
-        let constants = self.derived(wanted, AFFINE_CONSTANTS, |out| Derive::Affine { chain, from_root, out });
-        let to = emission.free_points.pop().unwrap_or_else(|| {
-            emission.registers.points += 1;
-            emission.registers.points - 1
-        });
-        emission.ops.push(Op::Affine { from: space.point, to, constants });
-        Space { point: to, chain: Vec::new() }
+        let constants = self.derived(AFFINE_CONSTANTS, |out| Derive::Affine { chain, from_root, out });
+        Space { point: self.push(Step::Affine { from: space.point, constants }), chain: Vec::new() }
     }
 
-    fn offset(&mut self, space: &Space) -> Range<usize> {
-        let from_root = space.point == 0;
+    fn offset(&mut self, space: &Space) -> Run {
+        let from_root = space.point == StepId::POINT;
         let chain = space.chain.clone();
-        let wanted = Wanted::Offset(chain.iter().map(Link::slot).collect(), from_root);
-        self.derived(wanted, 3, |out| Derive::Offset { chain, from_root, out })
+        self.derived(3, |out| Derive::Offset { chain, from_root, out })
     }
 
-    fn prepared(&mut self, prepare: fn(&[f64]) -> Vec<f64>, args: &Range<usize>) -> Range<usize> {
+    fn prepared(&mut self, prepare: fn(&[f64]) -> Vec<f64>, args: &Range<usize>) -> Run {
         let count = prepare(&self.values[args.clone()]).len();
-        if count == 0 {
-            return 0..0;
-        }
         let args = args.clone();
-        self.derived(Wanted::Prepare(args.start), count, |out| Derive::Prepare { prepare, args, out })
+        self.derived(count, |out| Derive::Prepare { prepare, args, out })
     }
 
-    fn factor(&mut self, table: &'static PlaceTable, args: &Range<usize>) -> usize {
-        let args = args.clone();
-        let wanted = Wanted::Factor(args.start);
-        self.derived(wanted, 1, |out| Derive::Factor { table, args, out: out.start }).start
-    }
-
-    fn derived(&mut self, wanted: Wanted, count: usize, make: impl FnOnce(Range<usize>) -> Derive) -> Range<usize> {
-        if let Some(known) = self.known.get(&wanted) {
-            return known.clone();
-        }
+    fn derived(&mut self, count: usize, make: impl FnOnce(Range<usize>) -> Derive) -> Run {
         let out = self.constants..self.constants + count;
-        self.constants = out.end;
-        self.derive.push(make(out.clone()));
-        self.known.insert(wanted, out.clone());
-        out
+        if count > 0 {
+            self.constants = out.end;
+            self.derive.push(make(out.clone()));
+        }
+        out.into()
     }
 
-    fn region(&mut self, region: Region) -> usize {
+    fn region(&mut self, region: Region) -> u32 {
         *self.region_index.entry(region).or_insert_with(|| {
             self.regions.push(region);
-            self.regions.len() - 1
+            u32::try_from(self.regions.len() - 1).expect("less than 2^32 regions")
         })
-    }
-}
-
-impl Emission {
-    fn value_register(&mut self) -> usize {
-        self.free_values.pop().unwrap_or_else(|| {
-            self.registers.values += 1;
-            self.registers.values - 1
-        })
-    }
-
-    /// Gives back a register whose value has been used; where all values are kept, it stays taken.
-    fn release_value(&mut self, register: usize) {
-        if self.fuse {
-            self.free_values.push(register);
-        }
-    }
-
-    /// Gives back the register of a space that was made for a node which is done.
-    fn release(&mut self, space: &Space, outer: &Space) {
-        if space.point != outer.point {
-            self.free_points.push(space.point);
-        }
     }
 }
 

@@ -3,11 +3,10 @@
 //! Points are taken in batches of [`BATCH`]; for each batch the operations of the program run one after another, each as
 //! one kernel call over the whole batch. An evaluator is the scratch memory of one thread.
 
-use crate::kernel::{
-    AffineJob, BATCH, Block, CombineJob, ModifyJob, PrimitiveJob, WIDEST, affine_gradients, affine_values,
-};
-use crate::operation::{Op, Registers};
-use crate::program::Program;
+use crate::bank::{Bank, Gradients, Values};
+use crate::kernel::{BATCH, Block, CombineJob};
+use crate::operation::{Step, StepId};
+use crate::program::{Part, Program};
 use crate::simd::{self, Level};
 use std::ops::Range;
 
@@ -30,7 +29,7 @@ impl<'a> Points<'a> {
         self.x.len()
     }
 
-    fn slice(&self, range: Range<usize>) -> Points<'a> {
+    pub(crate) fn slice(&self, range: Range<usize>) -> Points<'a> {
         Points { x: &self.x[range.clone()], y: &self.y[range.clone()], z: &self.z[range] }
     }
 }
@@ -38,14 +37,21 @@ impl<'a> Points<'a> {
 /// The shares of all regions at some points.
 #[derive(Clone, Debug, Default)]
 pub struct Shares {
+    regions: Vec<usize>,
     shares: Vec<f32>,
     count: usize,
 }
 
 impl Shares {
-    /// The share of a region at each point, between 0 and 1; all regions together make 1.
-    pub fn of(&self, region: usize) -> &[f32] {
-        &self.shares[region * self.count..(region + 1) * self.count]
+    /// The regions that can have a share at these points, each with its share at each point, between 0 and 1; all together
+    /// make 1.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, &[f32])> {
+        self.regions.iter().copied().zip(self.shares.chunks(self.count.max(1)))
+    }
+
+    /// The share of a region at a point.
+    pub fn of(&self, region: usize, point: usize) -> f32 {
+        self.iter().find(|(of, _)| *of == region).map_or(0.0, |(_, shares)| shares[point])
     }
 }
 
@@ -53,17 +59,10 @@ impl Shares {
 pub struct Evaluator<'p> {
     program: &'p Program,
     level: Level,
-    values: Bank<1>,
-    gradients: Bank<4>,
-    kept: Bank<1>,
+    values: Bank<Values>,
+    gradients: Bank<Gradients>,
+    kept: Bank<Values>,
     weights: Vec<Block>,
-}
-
-/// The registers of a program over numbers of `C` components.
-#[derive(Default)]
-struct Bank<const C: usize> {
-    points: Vec<Block>,
-    values: Vec<Block>,
 }
 
 impl<'p> Evaluator<'p> {
@@ -84,19 +83,35 @@ impl<'p> Evaluator<'p> {
         }
     }
 
+    /// What it runs.
+    pub fn program(&self) -> &'p Program {
+        self.program
+    }
+
     /// The field at each point.
     ///
     /// # Panics
     /// If `out` has not as many places as there are points.
     pub fn values(&mut self, points: Points<'_>, out: &mut [f32]) {
+        self.values_in(&self.program.whole, points, out);
+    }
+
+    /// The field at each point, all of which lie where `part` holds.
+    ///
+    /// # Panics
+    /// If `out` has not as many places as there are points.
+    pub fn values_in(&mut self, part: &Part, points: Points<'_>, out: &mut [f32]) {
         assert_eq!(points.count(), out.len(), "one place for each point");
-        let code = &self.program.code;
-        self.values.resize(code.registers);
+        let listing = part.listing();
+        let Some(result) = listing.result else {
+            return out.fill(f32::INFINITY);
+        };
+        self.values.prepare(listing);
         for batch in batches(out.len()) {
             let count = self.values.load(points.slice(batch.clone()));
-            run(self.program, &code.ops, self.level, &mut self.values, count);
+            self.values.run(&self.program.single, &listing.ops, self.level, count);
             let out = &mut out[batch];
-            out.copy_from_slice(&self.values.values[code.registers.result].0[..out.len()]);
+            out.copy_from_slice(&self.values.value(result)[0].0[..out.len()]);
         }
     }
 
@@ -105,15 +120,26 @@ impl<'p> Evaluator<'p> {
     /// # Panics
     /// If a result has not as many places as there are points.
     pub fn gradients(&mut self, points: Points<'_>, values: &mut [f32], gradient: [&mut [f32]; 3]) {
+        self.gradients_in(&self.program.whole, points, values, gradient);
+    }
+
+    /// The field and its gradient at each point, all of which lie where `part` holds.
+    ///
+    /// # Panics
+    /// If a result has not as many places as there are points.
+    pub fn gradients_in(&mut self, part: &Part, points: Points<'_>, values: &mut [f32], gradient: [&mut [f32]; 3]) {
         assert_eq!(points.count(), values.len(), "one place for each point");
-        let code = &self.program.code;
-        let result = 4 * code.registers.result;
-        self.gradients.resize(code.registers);
+        let listing = part.listing();
+        let Some(result) = listing.result else {
+            values.fill(f32::INFINITY);
+            return gradient.into_iter().for_each(|out| out.fill(0.0));
+        };
+        self.gradients.prepare(listing);
         let [gx, gy, gz] = gradient;
         for batch in batches(values.len()) {
             let count = self.gradients.load(points.slice(batch.clone()));
-            run(self.program, &code.ops, self.level, &mut self.gradients, count);
-            let from = &self.gradients.values[result..result + 4];
+            self.gradients.run(&self.program.single, &listing.ops, self.level, count);
+            let from = self.gradients.value(result);
             for (out, from) in [&mut *values, &mut *gx, &mut *gy, &mut *gz].into_iter().zip(from) {
                 let out = &mut out[batch.clone()];
                 out.copy_from_slice(&from.0[..out.len()]);
@@ -122,78 +148,69 @@ impl<'p> Evaluator<'p> {
     }
 
     /// The share of each region of [`crate::Structure::regions`] in the surface nearest to each point.
+    pub fn shares(&mut self, points: Points<'_>, out: &mut Shares) {
+        self.shares_in(&self.program.whole, points, out);
+    }
+
+    /// The share of each region in the surface nearest to each point, all of which lie where `part` holds.
     ///
     /// A share is the product of the partial derivatives of all combinations on the way from the region to the result,
     /// computed from the result downwards over the intermediate values of one evaluation.
-    pub fn shares(&mut self, points: Points<'_>, out: &mut Shares) {
-        let code = &self.program.code;
+    pub fn shares_in(&mut self, part: &Part, points: Points<'_>, out: &mut Shares) {
+        let (listing, regions) = (part.kept(), part.regions());
         out.count = points.count();
+        out.regions.clear();
+        out.regions.extend(regions.iter().map(|&region| region as usize));
         out.shares.clear();
-        out.shares.resize(out.count * code.regions.len(), 0.0);
-        self.kept.resize(code.share_registers);
-        self.weights.resize(code.share_registers.values, Block::default());
+        out.shares.resize(out.count * regions.len(), 0.0);
+        let Some(result) = listing.result else {
+            return;
+        };
+        self.kept.prepare(listing);
+        self.weights.resize(listing.values.max(self.weights.len()), Block::default());
+        let place = |id: StepId| listing.place[id.index()] as usize;
         let mut share = Block::default();
         for batch in batches(out.count) {
             let count = self.kept.load(points.slice(batch.clone()));
-            run(self.program, &code.share_ops, self.level, &mut self.kept, count);
-            self.weights[code.share_registers.result].0.fill(1.0);
-            for op in code.share_ops.iter().rev() {
-                match op {
-                    Op::Combine { table, a, b, out, constants } => {
+            self.kept.run(&self.program.single, &listing.ops, self.level, count);
+            self.weights[result].0.fill(1.0);
+            for (index, step) in part.steps.list.iter().enumerate().rev() {
+                let own = listing.place[index] as usize;
+                match *step {
+                    Step::Combine { table, a, b, constants, .. } => {
+                        let (a, b) = (place(a), place(b));
                         (table.kernels.shares)(
                             self.level,
                             &mut CombineJob {
-                                a: &self.kept.values[*a..=*a],
-                                b: &self.kept.values[*b..=*b],
-                                constants: &self.program.single[constants.clone()],
+                                a: self.kept.value(a),
+                                b: self.kept.value(b),
+                                constants: &self.program.single[constants.range()],
                                 out: std::slice::from_mut(&mut share),
                                 count,
                             },
                         );
                         for lane in 0..count {
-                            let weight = self.weights[*out].0[lane];
-                            self.weights[*a].0[lane] = weight * (1.0 - share.0[lane]);
-                            self.weights[*b].0[lane] = weight * share.0[lane];
+                            let weight = self.weights[own].0[lane];
+                            self.weights[a].0[lane] = weight * (1.0 - share.0[lane]);
+                            self.weights[b].0[lane] = weight * share.0[lane];
                         }
                     }
-                    Op::Primitive { out: value, region, .. } => {
-                        let start = region * out.count;
+                    Step::Primitive { region, .. } => {
+                        let column = regions.binary_search(&region).expect("a part lists all its regions");
+                        let start = column * out.count;
                         let to = &mut out.shares[start + batch.start..start + batch.end];
-                        for (to, weight) in to.iter_mut().zip(&self.weights[*value].0) {
+                        for (to, weight) in to.iter_mut().zip(&self.weights[own].0) {
                             *to += weight;
                         }
                     }
-                    Op::Modify { from, out, .. } | Op::Scale { from, out, .. } => {
-                        let weight = self.weights[*out].clone();
-                        self.weights[*from] = weight;
+                    Step::Modify { from, .. } | Step::Scale { from, .. } => {
+                        let weight = self.weights[own].clone();
+                        self.weights[place(from)] = weight;
                     }
-                    Op::Affine { .. } => {}
+                    Step::Point | Step::Affine { .. } => {}
                 }
             }
         }
-    }
-}
-
-impl<const C: usize> Bank<C> {
-    fn resize(&mut self, registers: Registers) {
-        self.points.resize(registers.points * 3 * C, Block::default());
-        // A program without operations leaves this: nothing is near.
-        self.values.resize(registers.values * C, Block([f32::INFINITY; BATCH]));
-    }
-
-    /// Fills point register 0 and returns how many points the kernels run over.
-    fn load(&mut self, points: Points<'_>) -> usize {
-        let given = points.x.len();
-        let count = given.next_multiple_of(WIDEST);
-        for (axis, from) in [points.x, points.y, points.z].into_iter().enumerate() {
-            let number = &mut self.points[axis * C..(axis + 1) * C];
-            number[0].0[..given].copy_from_slice(from);
-            number[0].0[given..count].fill(0.0);
-            for (by, derivative) in number[1..].iter_mut().enumerate() {
-                derivative.0[..count].fill(if by == axis { 1.0 } else { 0.0 });
-            }
-        }
-        count
     }
 }
 
@@ -201,70 +218,3 @@ impl<const C: usize> Bank<C> {
 fn batches(count: usize) -> impl Iterator<Item = Range<usize>> {
     (0..count).step_by(BATCH).map(move |start| start..(start + BATCH).min(count))
 }
-
-/// Runs the operations over the `count` points in point register 0.
-fn run<const C: usize>(program: &Program, ops: &[Op], level: Level, bank: &mut Bank<C>, count: usize) {
-    let constants_of = |range: &Range<usize>| &program.single[range.clone()];
-    for op in ops {
-        match op {
-            Op::Affine { from, to, constants } => {
-                let size = 3 * C;
-                let [from, to] = bank
-                    .points
-                    .get_disjoint_mut([from * size..(from + 1) * size, to * size..(to + 1) * size])
-                    .expect(NOT_IN_PLACE);
-                let mut job = AffineJob { from, constants: constants_of(constants), to, count };
-                if C == 1 {
-                    affine_values(level, &mut job);
-                } else {
-                    affine_gradients(level, &mut job);
-                }
-            }
-            Op::Primitive { table, point, at, constants, before, out, .. } => {
-                let kernel = if C == 1 { table.kernels.values } else { table.kernels.gradients };
-                let points = &bank.points[point * 3 * C..(point + 1) * 3 * C];
-                let (before, out) = match before {
-                    None => (None, number::<C>(&mut bank.values, *out)),
-                    Some(before) => {
-                        let [before, out] = numbers::<C, 2>(&mut bank.values, [*before, *out]);
-                        (Some(&*before), out)
-                    }
-                };
-                let (at, constants) = (constants_of(at), constants_of(constants));
-                kernel(level, &mut PrimitiveJob { points, at, constants, before, out, count });
-            }
-            Op::Combine { table, a, b, out, constants } => {
-                let kernel = if C == 1 { table.kernels.values } else { table.kernels.gradients };
-                let [a, b, out] = numbers::<C, 3>(&mut bank.values, [*a, *b, *out]);
-                kernel(level, &mut CombineJob { a, b, constants: constants_of(constants), out, count });
-            }
-            Op::Modify { table, from, out, constants } => {
-                let kernel = if C == 1 { table.kernels.values } else { table.kernels.gradients };
-                let [from, out] = numbers::<C, 2>(&mut bank.values, [*from, *out]);
-                kernel(level, &mut ModifyJob { from, constants: constants_of(constants), out, count });
-            }
-            Op::Scale { from, out, factor } => {
-                let factor = program.single[*factor];
-                let [from, out] = numbers::<C, 2>(&mut bank.values, [*from, *out]);
-                for (from, out) in from.iter().zip(out) {
-                    for (from, out) in from.0[..count].iter().zip(&mut out.0) {
-                        *out = from * factor;
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Register `index` of numbers with `C` components.
-fn number<const C: usize>(values: &mut [Block], index: usize) -> &mut [Block] {
-    &mut values[index * C..(index + 1) * C]
-}
-
-/// Several registers of numbers with `C` components.
-fn numbers<const C: usize, const N: usize>(values: &mut [Block], indices: [usize; N]) -> [&mut [Block]; N] {
-    values.get_disjoint_mut(indices.map(|index| index * C..(index + 1) * C)).expect(NOT_IN_PLACE)
-}
-
-/// Why registers can be borrowed apart.
-const NOT_IN_PLACE: &str = "no operation writes to a register it reads";

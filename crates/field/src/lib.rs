@@ -24,6 +24,7 @@
 //! of files, cameras, colours, threads or graphics processors.
 
 pub mod analysis;
+mod bank;
 mod compile;
 pub mod contract;
 pub mod diagnostic;
@@ -31,6 +32,7 @@ pub mod evaluator;
 pub mod expr;
 pub mod field;
 pub mod kernel;
+mod lower;
 mod operation;
 pub mod program;
 pub mod ray;
@@ -47,7 +49,7 @@ pub use diagnostic::{Diagnostic, Severity};
 pub use evaluator::{Evaluator, Points, Shares};
 pub use field::{Axis, Field, Form, MaterialId, Node, Origin, Triple, Value};
 pub use operation::Region;
-pub use program::Program;
+pub use program::{Part, Program};
 pub use scalar::{Constants, Dual, Interval, Scalar};
 pub use shape::{Arity, Kind, Param, ParamKind, Shape};
 pub use structure::Structure;

@@ -16,51 +16,114 @@ pub struct Region {
     pub material: Option<MaterialId>,
 }
 
-/// The operations of a structure.
+/// Where the constants of a structure's steps come from, and what it tells apart.
 #[derive(Debug)]
 pub(crate) struct Code {
-    pub(crate) ops: Vec<Op>,
-    /// The operations that keep every intermediate value, for shares.
-    pub(crate) share_ops: Vec<Op>,
     pub(crate) derive: Vec<Derive>,
     pub(crate) constants: usize,
-    pub(crate) registers: Registers,
-    pub(crate) share_registers: Registers,
     pub(crate) regions: Vec<Region>,
     /// The slots whose numbers shaped the code.
     pub(crate) fixed: BTreeSet<usize>,
 }
 
-/// How many registers of each kind a program needs, and where the result ends up.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Registers {
-    pub(crate) points: usize,
-    pub(crate) values: usize,
-    pub(crate) result: usize,
+/// A run of entries in a table: of constants, or of the slots of a tree's numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct Run {
+    start: u32,
+    len: u32,
 }
 
-/// One operation. Registers are numbered from 0; point register 0 holds the point itself. No operation writes to a register
-/// it reads.
+impl Run {
+    pub(crate) fn range(self) -> Range<usize> {
+        self.start as usize..(self.start + self.len) as usize
+    }
+
+    pub(crate) fn len(self) -> usize {
+        self.len as usize
+    }
+
+    pub(crate) fn start(self) -> usize {
+        self.start as usize
+    }
+}
+
+impl From<Range<usize>> for Run {
+    fn from(range: Range<usize>) -> Self {
+        let number = |n: usize| u32::try_from(n).expect("tables have less than 2^32 entries");
+        Self { start: number(range.start), len: number(range.len()) }
+    }
+}
+
+/// The place of a step in its list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct StepId(pub(crate) u32);
+
+impl StepId {
+    /// The step that yields the point itself.
+    pub(crate) const POINT: Self = Self(0);
+
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// One step of a computation. Each yields one point or one value and reads only steps before it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Step {
+    /// The point itself: always the first step, and only that.
+    Point,
+    /// The point `M p + t`.
+    Affine { from: StepId, constants: Run },
+    /// The value `primitive(p - at)`.
+    Primitive { table: &'static PrimitiveTable, point: StepId, at: Run, args: Run, constants: Run, region: u32 },
+    /// The value `combine(a, b)`.
+    Combine { table: &'static CombineTable, a: StepId, b: StepId, args: Run, constants: Run },
+    /// The value `modify(from)`.
+    Modify { table: &'static ModifyTable, from: StepId, args: Run, constants: Run },
+    /// The value `factor * from`.
+    Scale { from: StepId, factor: u32 },
+}
+
+impl Step {
+    /// Calls `visit` with each step that this one reads.
+    pub(crate) fn operands(&self, mut visit: impl FnMut(StepId)) {
+        match *self {
+            Self::Point => {}
+            Self::Affine { from, .. } | Self::Modify { from, .. } | Self::Scale { from, .. } => visit(from),
+            Self::Primitive { point, .. } => visit(point),
+            Self::Combine { a, b, .. } => {
+                visit(a);
+                visit(b);
+            }
+        }
+    }
+
+    /// The step with each operand replaced.
+    pub(crate) fn with_operands(mut self, map: impl Fn(StepId) -> StepId) -> Self {
+        match &mut self {
+            Self::Point => {}
+            Self::Affine { from, .. } | Self::Modify { from, .. } | Self::Scale { from, .. } => *from = map(*from),
+            Self::Primitive { point, .. } => *point = map(*point),
+            Self::Combine { a, b, .. } => {
+                *a = map(*a);
+                *b = map(*b);
+            }
+        }
+        self
+    }
+
+    /// Whether it yields a point.
+    pub(crate) fn is_point(&self) -> bool {
+        matches!(self, Self::Point | Self::Affine { .. })
+    }
+}
+
+/// A computation of one value from a point.
 #[derive(Clone, Debug)]
-pub(crate) enum Op {
-    /// `points[to] = M points[from] + t`.
-    Affine { from: usize, to: usize, constants: Range<usize> },
-    /// `values[out] = primitive(points[point] - at)`, or the minimum of `values[before]` and that.
-    Primitive {
-        table: &'static PrimitiveTable,
-        point: usize,
-        at: Range<usize>,
-        constants: Range<usize>,
-        before: Option<usize>,
-        out: usize,
-        region: usize,
-    },
-    /// `values[out] = combine(values[a], values[b])`.
-    Combine { table: &'static CombineTable, a: usize, b: usize, out: usize, constants: Range<usize> },
-    /// `values[out] = modify(values[from])`.
-    Modify { table: &'static ModifyTable, from: usize, out: usize, constants: Range<usize> },
-    /// `values[out] = factor * values[from]`.
-    Scale { from: usize, out: usize, factor: usize },
+pub(crate) struct Steps {
+    pub(crate) list: Vec<Step>,
+    /// The step that yields the result; `None` if there is nothing, which is infinitely far.
+    pub(crate) result: Option<StepId>,
 }
 
 /// How a run of constants follows from the numbers of the tree.
@@ -88,14 +151,6 @@ pub(crate) enum Link {
 impl Link {
     pub(crate) fn is_translation(&self) -> bool {
         matches!(self, Self::Place { table, .. } if table.is_translation)
-    }
-
-    /// The slot of its first number, which tells links apart.
-    pub(crate) fn slot(&self) -> usize {
-        match self {
-            Self::Place { args, .. } => args.start,
-            Self::Axis { arg } => *arg,
-        }
     }
 
     /// The map of this link.

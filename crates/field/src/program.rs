@@ -7,12 +7,12 @@
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Graph, Slots};
 use crate::kernel::{CombineFn, CombineKernels, Dual2, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels, affine};
-use crate::operation::{Code, Derive, Op, inverse_of};
+use crate::lower::Listing;
+use crate::operation::{Code, Derive, Run, Step, Steps, inverse_of};
 use crate::scalar::{Constants, Dual, Interval, Scalar};
 use crate::vector::Vec3;
 use glam::DVec3;
-use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Why numbers could not be bound.
 #[derive(Clone, Debug)]
@@ -46,6 +46,8 @@ impl std::error::Error for BindError {}
 #[derive(Clone, Debug)]
 pub struct Program {
     pub(crate) code: Arc<Code>,
+    /// All steps.
+    pub(crate) whole: Arc<Part>,
     /// For batches: relative to the origin.
     pub(crate) single: Arc<[f32]>,
     /// For single points: absolute.
@@ -57,13 +59,15 @@ pub struct Program {
 impl Program {
     pub(crate) fn bind(
         code: &Arc<Code>,
+        whole: &Arc<Part>,
         values: &[f64],
         origin: DVec3,
         lipschitz: Option<f64>,
     ) -> Result<Self, BindError> {
         let double = derive(code, values, DVec3::ZERO)?;
         let single = derive(code, values, origin)?.iter().map(|&c| c as f32).collect();
-        Ok(Self { code: Arc::clone(code), single, double: double.into(), origin, lipschitz })
+        let (code, whole) = (Arc::clone(code), Arc::clone(whole));
+        Ok(Self { code, whole, single, double: double.into(), origin, lipschitz })
     }
 
     /// What the points of batches are relative to.
@@ -145,47 +149,94 @@ impl Program {
     }
 
     fn run<S: Host>(&self, p: Vec3<S>) -> S {
-        let infinite = p.x.lift(f64::INFINITY);
-        let mut points = vec![p; self.code.registers.points];
-        let mut values = vec![infinite; self.code.registers.values];
         let like = p.x;
-        for op in &self.code.ops {
-            match op {
-                Op::Affine { from, to, constants } => {
-                    let from = points[*from];
-                    points[*to] =
+        let steps = &self.whole.steps;
+        let Some(result) = steps.result else {
+            return like.lift(f64::INFINITY);
+        };
+        let mut points: Vec<Vec3<S>> = Vec::with_capacity(steps.list.len());
+        let mut values: Vec<S> = Vec::with_capacity(steps.list.len());
+        for step in &steps.list {
+            let (mut point, mut value) = (p, like);
+            match *step {
+                Step::Point => {}
+                Step::Affine { from, constants } => {
+                    let from = points[from.index()];
+                    point =
                         S::with_table(&self.double, constants, |table| affine(from, &Constants::new(like, table, 12)));
                 }
-                Op::Primitive { table, point, at, constants, before, out, .. } => {
+                Step::Primitive { table, point: at_point, at, constants, .. } => {
                     let at = S::with_table(&self.double, at, |table| Constants::new(like, table, 3).get::<3>());
-                    let p = points[*point] - at.into();
-                    let value = S::with_table(&self.double, constants, |slots| {
+                    let p = points[at_point.index()] - at.into();
+                    value = S::with_table(&self.double, constants, |slots| {
                         S::primitive(&table.kernels)(p, &Constants::new(like, slots, constants.len()))
                     });
-                    values[*out] = match before {
-                        None => value,
-                        Some(before) => values[*before].min(value),
-                    };
                 }
-                Op::Combine { table, a, b, out, constants } => {
-                    let (a, b) = (values[*a], values[*b]);
-                    values[*out] = S::with_table(&self.double, constants, |slots| {
+                Step::Combine { table, a, b, constants, .. } => {
+                    let (a, b) = (values[a.index()], values[b.index()]);
+                    value = S::with_table(&self.double, constants, |slots| {
                         S::combine(&table.kernels)(a, b, &Constants::new(like, slots, constants.len()))
                     });
                 }
-                Op::Modify { table, from, out, constants } => {
-                    let from = values[*from];
-                    values[*out] = S::with_table(&self.double, constants, |slots| {
+                Step::Modify { table, from, constants, .. } => {
+                    let from = values[from.index()];
+                    value = S::with_table(&self.double, constants, |slots| {
                         S::modify(&table.kernels)(from, &Constants::new(like, slots, constants.len()))
                     });
                 }
-                Op::Scale { from, out, factor } => {
-                    let factor = S::with_table(&self.double, &(*factor..*factor + 1), |table| like.constant(table, 0));
-                    values[*out] = values[*from] * factor;
+                Step::Scale { from, factor } => {
+                    let factor = Run::from(factor as usize..factor as usize + 1);
+                    let factor = S::with_table(&self.double, factor, |table| like.constant(table, 0));
+                    value = values[from.index()] * factor;
                 }
             }
+            points.push(point);
+            values.push(value);
         }
-        values[self.code.registers.result]
+        values[result.index()]
+    }
+}
+
+/// Some of a program's steps: all that can matter somewhere.
+#[derive(Debug)]
+pub struct Part {
+    pub(crate) steps: Steps,
+    listing: OnceLock<Listing>,
+    kept: OnceLock<Listing>,
+    regions: OnceLock<Vec<u32>>,
+}
+
+impl Part {
+    pub(crate) fn new(steps: Steps) -> Self {
+        Self { steps, listing: OnceLock::new(), kept: OnceLock::new(), regions: OnceLock::new() }
+    }
+
+    /// How many steps there are.
+    pub fn size(&self) -> usize {
+        self.steps.list.len()
+    }
+
+    pub(crate) fn listing(&self) -> &Listing {
+        self.listing.get_or_init(|| Listing::of(&self.steps))
+    }
+
+    /// The operations that keep every intermediate value.
+    pub(crate) fn kept(&self) -> &Listing {
+        self.kept.get_or_init(|| Listing::keeping_all(&self.steps))
+    }
+
+    /// The regions of all its primitives, in order.
+    pub(crate) fn regions(&self) -> &[u32] {
+        self.regions.get_or_init(|| {
+            let region = |step: &Step| match *step {
+                Step::Primitive { region, .. } => Some(region),
+                _ => None,
+            };
+            let mut regions: Vec<u32> = self.steps.list.iter().filter_map(region).collect();
+            regions.sort_unstable();
+            regions.dedup();
+            regions
+        })
     }
 }
 
@@ -229,7 +280,7 @@ trait Host: Scalar {
     fn primitive(kernels: &PrimitiveKernels) -> PrimitiveFn<Self>;
     fn combine(kernels: &CombineKernels) -> CombineFn<Self>;
     fn modify(kernels: &ModifyKernels) -> ModifyFn<Self>;
-    fn with_table<R>(constants: &[f64], range: &Range<usize>, read: impl FnOnce(&Self::Table) -> R) -> R;
+    fn with_table<R>(constants: &[f64], range: Run, read: impl FnOnce(&Self::Table) -> R) -> R;
 }
 
 macro_rules! host {
@@ -244,8 +295,8 @@ macro_rules! host {
             fn modify(kernels: &ModifyKernels) -> ModifyFn<Self> {
                 kernels.$field
             }
-            fn with_table<R>(constants: &[f64], range: &Range<usize>, read: impl FnOnce(&[f64]) -> R) -> R {
-                read(&constants[range.clone()])
+            fn with_table<R>(constants: &[f64], range: Run, read: impl FnOnce(&[f64]) -> R) -> R {
+                read(&constants[range.range()])
             }
         }
     )*};
@@ -266,7 +317,7 @@ impl Host for Expr<'_> {
         kernels.expr
     }
 
-    fn with_table<R>(_constants: &[f64], range: &Range<usize>, read: impl FnOnce(&Slots) -> R) -> R {
-        read(&Slots(range.start as u32))
+    fn with_table<R>(_constants: &[f64], range: Run, read: impl FnOnce(&Slots) -> R) -> R {
+        read(&Slots(range.start() as u32))
     }
 }

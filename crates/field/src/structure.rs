@@ -10,7 +10,7 @@ use crate::compile::compile;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::field::Field;
 use crate::operation::{Code, Region};
-use crate::program::{BindError, Program};
+use crate::program::{BindError, Part, Program};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -18,6 +18,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Structure {
     code: Arc<Code>,
+    whole: Arc<Part>,
     objects: Vec<Field>,
     values: Vec<f64>,
     lipschitz: Option<f64>,
@@ -31,8 +32,9 @@ impl Structure {
     /// All errors of the fields, and their warnings. A program of no objects is no error; its value is infinite.
     pub fn compile(objects: &[Field]) -> Result<Self, Vec<Diagnostic>> {
         let (lipschitz, warnings) = lipschitz_of_union(objects)?;
-        let (code, values) = compile(objects);
-        Ok(Self { code: Arc::new(code), objects: objects.to_vec(), values, lipschitz, warnings })
+        let (code, steps, values) = compile(objects);
+        let whole = Arc::new(Part::new(steps));
+        Ok(Self { code: Arc::new(code), whole, objects: objects.to_vec(), values, lipschitz, warnings })
     }
 
     /// The parts of the surface that shares are told apart for.
@@ -52,7 +54,7 @@ impl Structure {
 
     /// How many operations one evaluation takes.
     pub fn operations(&self) -> usize {
-        self.code.ops.len()
+        self.whole.listing().ops.len()
     }
 
     /// A program with these numbers in the slots. Its batches take points relative to `origin`, so that single precision
@@ -73,7 +75,7 @@ impl Structure {
             let objects: Vec<Field> = self.objects.iter().map(|object| object.with_numbers(&mut rest)).collect();
             lipschitz = lipschitz_of_union(&objects).map_err(BindError::Faults)?.0;
         }
-        Program::bind(&self.code, values, origin, lipschitz)
+        Program::bind(&self.code, &self.whole, values, origin, lipschitz)
     }
 
     /// The program with the numbers that the fields were written with.

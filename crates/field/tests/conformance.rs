@@ -227,14 +227,14 @@ fn shares_are_the_partial_derivatives() {
         Evaluator::new(&program).shares(Points { x: &x, y: &y, z: &z }, &mut shares);
         let alone: Vec<Program> = objects.iter().map(program_of).collect();
         for (i, &p) in points.iter().enumerate() {
-            let total: f32 = (0..structure.regions().len()).map(|region| shares.of(region)[i]).sum();
+            let total: f32 = (0..structure.regions().len()).map(|region| shares.of(region, i)).sum();
             assert!((total - 1.0).abs() < 1e-5, "seed {seed} at {p}: {total}");
             let of_first: f32 = structure
                 .regions()
                 .iter()
                 .enumerate()
                 .filter(|(_, region)| region.object == 0)
-                .map(|(index, _)| shares.of(index)[i])
+                .map(|(index, _)| shares.of(index, i))
                 .sum();
             let (a, b) = (alone[0].value(p), alone[1].value(p));
             if (a - b).abs() > 1e-4 {
@@ -288,7 +288,7 @@ fn blends_share_by_their_derivatives() {
             for (i, &p) in points.iter().enumerate() {
                 // Growing the ball lowers its distance at the same rate everywhere.
                 let slope = (more.value(p) - less.value(p)) / (2.0 * STEP);
-                let share = f64::from(shares.of(painted)[i]);
+                let share = f64::from(shares.of(painted, i));
                 assert!((slope.abs() - share).abs() < 1e-3, "{name} {order} at {p}: {share}, not {}", slope.abs());
             }
         }

@@ -258,7 +258,7 @@ impl<'f> Tracer<'f> {
         }
         for (index, landing) in self.landings.iter().enumerate() {
             let CameraRay { begin, start, .. } = &self.rays[landing.ray as usize];
-            let share = |region: usize| self.shares.of(region)[index];
+            let share = |region: usize| self.shares.of(region, index);
             let main = match asks_for_shares {
                 true => {
                     (1..paints.len()).fold(0, |best, region| if share(region) > share(best) { region } else { best })

@@ -1,0 +1,172 @@
+//! From steps to operations on registers.
+//!
+//! Two banks of registers, one for points and one for values; a register is used again as soon as nothing reads it any
+//! more. A primitive that only enters a minimum is folded into it in one kernel.
+
+use crate::operation::{Run, Step, StepId, Steps};
+use crate::shape::{CombineTable, ModifyTable, PrimitiveTable};
+
+/// Operations in order, and the registers they work on.
+#[derive(Clone, Debug)]
+pub(crate) struct Listing {
+    pub(crate) ops: Vec<Op>,
+    /// How many registers of each kind there are.
+    pub(crate) points: usize,
+    pub(crate) values: usize,
+    /// The register of the result; `None` if there is none.
+    pub(crate) result: Option<usize>,
+    /// The register of each step, as long as it holds that step's result.
+    pub(crate) place: Vec<u32>,
+}
+
+/// One operation. Registers are numbered from 0; point register 0 holds the point itself. No operation writes to a register
+/// it reads.
+#[derive(Clone, Debug)]
+pub(crate) enum Op {
+    /// `points[to] = M points[from] + t`.
+    Affine { from: usize, to: usize, constants: Run },
+    /// `values[out] = primitive(points[point] - at)`, or the minimum of `values[before]` and that.
+    Primitive {
+        table: &'static PrimitiveTable,
+        point: usize,
+        at: Run,
+        constants: Run,
+        before: Option<usize>,
+        out: usize,
+    },
+    /// `values[out] = combine(values[a], values[b])`.
+    Combine { table: &'static CombineTable, a: usize, b: usize, out: usize, constants: Run },
+    /// `values[out] = modify(values[from])`.
+    Modify { table: &'static ModifyTable, from: usize, out: usize, constants: Run },
+    /// `values[out] = factor * values[from]`.
+    Scale { from: usize, out: usize, factor: usize },
+}
+
+impl Listing {
+    /// The operations for the result of some steps.
+    pub(crate) fn of(steps: &Steps) -> Self {
+        Self::with_fates(steps, &Fate::of_all(steps))
+    }
+
+    /// The operations for some steps, with a register of its own for each step.
+    pub(crate) fn keeping_all(steps: &Steps) -> Self {
+        Self::with_fates(steps, &vec![Fate { last_use: u32::MAX, is_folded: false }; steps.list.len()])
+    }
+
+    fn with_fates(steps: &Steps, fate: &[Fate]) -> Self {
+        let mut registers = Registers::new(steps.list.len());
+        let mut ops = Vec::new();
+        for (index, step) in steps.list.iter().enumerate() {
+            if fate[index].is_folded {
+                continue;
+            }
+            registers.take(index, step.is_point());
+            let place = |id: StepId| registers.place[id.index()] as usize;
+            let out = registers.place[index] as usize;
+            ops.extend(match *step {
+                Step::Point => None,
+                Step::Affine { from, constants } => Some(Op::Affine { from: place(from), to: out, constants }),
+                Step::Primitive { table, point, at, constants, .. } => {
+                    Some(Op::Primitive { table, point: place(point), at, constants, before: None, out })
+                }
+                Step::Combine { a, b, .. } if fate[b.index()].is_folded => {
+                    let Step::Primitive { table, point, at, constants, .. } = steps.list[b.index()] else {
+                        unreachable!("only primitives are folded")
+                    };
+                    Some(Op::Primitive { table, point: place(point), at, constants, before: Some(place(a)), out })
+                }
+                Step::Combine { table, a, b, constants, .. } => {
+                    Some(Op::Combine { table, a: place(a), b: place(b), out, constants })
+                }
+                Step::Modify { table, from, constants, .. } => {
+                    Some(Op::Modify { table, from: place(from), out, constants })
+                }
+                Step::Scale { from, factor } => Some(Op::Scale { from: place(from), out, factor: factor as usize }),
+            });
+            let mut release = |id: StepId| {
+                if fate[id.index()].last_use == index as u32 {
+                    registers.release(id, steps.list[id.index()].is_point());
+                }
+            };
+            step.operands(|id| match steps.list[id.index()] {
+                Step::Primitive { point, .. } if fate[id.index()].is_folded => release(point),
+                _ => release(id),
+            });
+        }
+        let result = steps.result.map(|id| registers.place[id.index()] as usize);
+        Self { ops, points: registers.points.count, values: registers.values.count, result, place: registers.place }
+    }
+}
+
+/// What becomes of a step.
+#[derive(Clone, Copy, Default)]
+struct Fate {
+    /// The last step that reads it; its own place if none does.
+    last_use: u32,
+    /// Whether it is a primitive that is computed where its minimum is.
+    is_folded: bool,
+}
+
+impl Fate {
+    fn of_all(steps: &Steps) -> Vec<Self> {
+        let mut fates = vec![Self::default(); steps.list.len()];
+        for (index, step) in steps.list.iter().enumerate() {
+            let index = index as u32;
+            fates[index as usize].last_use = index;
+            step.operands(|id| fates[id.index()].last_use = index);
+            if let Step::Combine { table, a, b, .. } = *step
+                && table.is_minimum
+                && a != b
+                && let Step::Primitive { point, .. } = steps.list[b.index()]
+            {
+                // A primitive is read by one step alone: trees share no nodes.
+                fates[b.index()].is_folded = true;
+                fates[point.index()].last_use = index;
+            }
+        }
+        if let Some(result) = steps.result {
+            fates[result.index()].last_use = u32::MAX;
+        }
+        fates
+    }
+}
+
+/// Which registers are taken, by which steps.
+struct Registers {
+    place: Vec<u32>,
+    points: Pool,
+    values: Pool,
+}
+
+#[derive(Default)]
+struct Pool {
+    count: usize,
+    free: Vec<u32>,
+}
+
+impl Registers {
+    fn new(steps: usize) -> Self {
+        Self { place: vec![0; steps], points: Pool::default(), values: Pool::default() }
+    }
+
+    fn pool(&mut self, is_point: bool) -> &mut Pool {
+        if is_point { &mut self.points } else { &mut self.values }
+    }
+
+    fn take(&mut self, step: usize, is_point: bool) {
+        let pool = self.pool(is_point);
+        let register = pool.free.pop().unwrap_or_else(|| {
+            pool.count += 1;
+            pool.count as u32 - 1
+        });
+        self.place[step] = register;
+    }
+
+    /// Gives back the register of a step. The point itself stays: evaluation may run again from it.
+    fn release(&mut self, step: StepId, is_point: bool) {
+        if step != StepId::POINT {
+            let register = self.place[step.index()];
+            self.pool(is_point).free.push(register);
+        }
+    }
+}
