@@ -80,7 +80,7 @@ impl Compiler {
             self.object = index;
             result = Some(match result {
                 None => self.emit(object, &root, None, None),
-                Some(before) => self.emit_folded(object, &root, None, before, (union, Run::default(), Run::default())),
+                Some(before) => self.emit_folded(object, &root, None, before, (union, Run::default())),
             });
         }
         result
@@ -93,13 +93,13 @@ impl Compiler {
         space: &Space,
         material: Option<MaterialId>,
         before: StepId,
-        (table, args, constants): (&'static CombineTable, Run, Run),
+        (table, constants): (&'static CombineTable, Run),
     ) -> StepId {
         if table.is_minimum && can_fold(tree.node) {
             return self.emit(tree, space, material, Some(before));
         }
         let b = self.emit(tree, space, material, None);
-        self.push(Step::Combine { table, a: before, b, args, constants })
+        self.push(Step::Combine { table, a: before, b, constants })
     }
 
     /// Emits `tree`, or its minimum with the value of the step `before`.
@@ -111,7 +111,6 @@ impl Compiler {
         before: Option<StepId>,
     ) -> StepId {
         let node = tree.node;
-        let args = Run::from(tree.args.clone());
         match &node.shape.kind {
             Kind::Primitive(table) => {
                 let mut space = space.clone();
@@ -128,13 +127,15 @@ impl Compiler {
                 let at = self.offset(&space);
                 let constants = self.prepared(table.prepare, &tree.args);
                 let region = self.region(Region { object: self.object, material });
-                let value = self.push(Step::Primitive { table, point: space.point, at, args, constants, region });
+                let args = tree.args.clone();
+                let slope = self.derived(1, |out| Derive::Slope { table, args, out: out.start }).start() as u32;
+                let point = space.point;
+                let value = self.push(Step::Primitive { table, point, at, constants, slope, region });
                 match before {
                     None => value,
                     Some(before) => {
                         let Kind::Combine(table) = &shapes::UNION.kind else { unreachable!("union combines") };
-                        let none = Run::default();
-                        self.push(Step::Combine { table, a: before, b: value, args: none, constants: none })
+                        self.push(Step::Combine { table, a: before, b: value, constants: Run::default() })
                     }
                 }
             }
@@ -150,7 +151,7 @@ impl Compiler {
                 let Some(first) = children.next() else { unreachable!("analysis refuses empty combinations") };
                 let mut result = self.emit(first, &space, material, before);
                 for child in children {
-                    result = self.emit_folded(child, &space, material, result, (table, args, constants));
+                    result = self.emit_folded(child, &space, material, result, (table, constants));
                 }
                 result
             }
@@ -167,7 +168,7 @@ impl Compiler {
             Kind::Modify(table) => {
                 let from = self.emit(&tree.children[0], space, material, before);
                 let constants = self.prepared(table.prepare, &tree.args);
-                self.push(Step::Modify { table, from, args, constants })
+                self.push(Step::Modify { table, from, constants })
             }
             Kind::Paint => {
                 let material = node.material.or(material);

@@ -212,21 +212,21 @@ fn modify_gradients<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
     dispatch!(level, token => modify_loop::<M, _, Dual<Lanes<_>>>(token, job));
 }
 
-/// The affine map `p' = M p + t` as a formula; its twelve constants are the columns of `M`, then `t`.
+/// The affine map `p' = M p + t` as a formula; its first twelve constants are the columns of `M`, then `t`.
 #[inline(always)]
 pub(crate) fn affine<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> Vec3<S> {
     let [ax, ay, az, bx, by, bz, cx, cy, cz, tx, ty, tz] = c.get();
     vec3(ax * p.x + bx * p.y + cx * p.z + tx, ay * p.x + by * p.y + cy * p.z + ty, az * p.x + bz * p.y + cz * p.z + tz)
 }
 
-/// How many constants an affine map takes.
-pub(crate) const AFFINE_CONSTANTS: usize = 12;
+/// How many constants an affine map has: those of its formula, and the spectral norm of `M`.
+pub(crate) const AFFINE_CONSTANTS: usize = 13;
 
 /// The work of an affine map on one batch of points.
 pub struct AffineJob<'a> {
     /// The points.
     pub from: &'a [Block],
-    /// The map's twelve constants.
+    /// The map's constants.
     pub constants: &'a [f32],
     /// The mapped points.
     pub to: &'a mut [Block],

@@ -59,9 +59,9 @@ pub use vector::{Vec3, vec3};
 mod shape_prelude {
     pub(crate) use crate::contract::{Contract, Metric};
     pub(crate) use crate::field::{Field, Form, Triple, Value};
-    pub(crate) use crate::scalar::{Constants, Scalar};
+    pub(crate) use crate::scalar::{Constants, Interval, Scalar};
     pub(crate) use crate::shape::{
-        AXIS, About, Combine, ExactForm, Hull, Modify, Param, ParamKind, Place, Primitive, Shape,
+        AXIS, About, Combine, ExactForm, Hull, Modify, Param, ParamKind, Place, Primitive, Settled, Shape,
     };
     pub(crate) use crate::vector::{Vec3, vec3};
     pub(crate) use glam::{DAffine3, DMat3, DQuat, DVec3};

@@ -75,11 +75,11 @@ pub(crate) enum Step {
     /// The point `M p + t`.
     Affine { from: StepId, constants: Run },
     /// The value `primitive(p - at)`.
-    Primitive { table: &'static PrimitiveTable, point: StepId, at: Run, args: Run, constants: Run, region: u32 },
+    Primitive { table: &'static PrimitiveTable, point: StepId, at: Run, constants: Run, slope: u32, region: u32 },
     /// The value `combine(a, b)`.
-    Combine { table: &'static CombineTable, a: StepId, b: StepId, args: Run, constants: Run },
+    Combine { table: &'static CombineTable, a: StepId, b: StepId, constants: Run },
     /// The value `modify(from)`.
-    Modify { table: &'static ModifyTable, from: StepId, args: Run, constants: Run },
+    Modify { table: &'static ModifyTable, from: StepId, constants: Run },
     /// The value `factor * from`.
     Scale { from: StepId, factor: u32 },
 }
@@ -135,6 +135,8 @@ pub(crate) enum Derive {
     Affine { chain: Vec<Link>, from_root: bool, out: Range<usize> },
     /// The same for a chain of translations: what to subtract.
     Offset { chain: Vec<Link>, from_root: bool, out: Range<usize> },
+    /// The largest slope of a primitive; infinite if it is not known.
+    Slope { table: &'static PrimitiveTable, args: Range<usize>, out: usize },
     /// A placing node's factor.
     Factor { table: &'static PlaceTable, args: Range<usize>, out: usize },
 }

@@ -10,7 +10,7 @@ use crate::kernel::{CombineFn, CombineKernels, Dual2, ModifyFn, ModifyKernels, P
 use crate::lower::Listing;
 use crate::operation::{Code, Derive, Run, Step, Steps, inverse_of};
 use crate::scalar::{Constants, Dual, Interval, Scalar};
-use crate::vector::Vec3;
+use crate::vector::{Vec3, spectral_norm};
 use glam::DVec3;
 use std::sync::{Arc, OnceLock};
 
@@ -258,7 +258,8 @@ fn derive(code: &Code, values: &[f64], origin: DVec3) -> Result<Vec<f64>, BindEr
                     translation += matrix * origin;
                 }
                 constants[out.start..out.start + 9].copy_from_slice(&matrix.to_cols_array());
-                constants[out.start + 9..out.end].copy_from_slice(&translation.to_array());
+                constants[out.start + 9..out.start + 12].copy_from_slice(&translation.to_array());
+                constants[out.start + 12] = spectral_norm(matrix);
             }
             Derive::Offset { chain, from_root, out } => {
                 let (_, mut translation) = inverse_of(chain, values);
@@ -266,6 +267,9 @@ fn derive(code: &Code, values: &[f64], origin: DVec3) -> Result<Vec<f64>, BindEr
                     translation += origin;
                 }
                 constants[out.clone()].copy_from_slice(&(-translation).to_array());
+            }
+            Derive::Slope { table, args, out } => {
+                constants[*out] = (table.contract)(&values[args.clone()]).lipschitz.unwrap_or(f64::INFINITY);
             }
             Derive::Factor { table, args, out } => {
                 constants[*out] = (table.factor)(&values[args.clone()]);

@@ -11,7 +11,7 @@
 
 use crate::contract::Contract;
 use crate::kernel::{CombineKernels, ModifyKernels, PrimitiveKernels};
-use crate::scalar::{Constants, Scalar};
+use crate::scalar::{Constants, Interval, Scalar};
 use crate::vector::Vec3;
 use glam::{DAffine3, DVec3};
 
@@ -210,6 +210,11 @@ pub trait Combine: 'static {
     /// Why these two can't be combined, as a sentence.
     fn contract(args: &[f64], a: Contract, b: Contract) -> Result<Contract, String>;
 
+    /// What the combination comes to where its operands have values in these ranges. `constants` are those of the formula.
+    fn settle(_a: Interval, _b: Interval, _constants: &[f64]) -> Settled {
+        Settled::Open
+    }
+
     /// How the support of the result follows from those of the operands; see [`Primitive::support`].
     const HULL: Hull;
 
@@ -225,6 +230,19 @@ pub trait Combine: 'static {
     /// The share of `b` in the result's material, in `[0, 1]`: the size of the partial derivative of
     /// [`Combine::combine`] by `b`. The rest is `a`'s.
     fn share<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S;
+}
+
+/// What a combination comes to where only one of its operands matters: exactly that operand, in value and in material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Settled {
+    /// Both may matter.
+    Open,
+    /// It is the first operand.
+    First,
+    /// It is the second operand.
+    Second,
+    /// It is the second operand with its sign turned.
+    NotSecond,
 }
 
 /// An affine map of space.
@@ -334,6 +352,7 @@ pub struct CombineTable {
     pub is_minimum: bool,
     pub prepare: fn(&[f64]) -> Vec<f64>,
     pub contract: fn(&[f64], Contract, Contract) -> Result<Contract, String>,
+    pub settle: fn(Interval, Interval, &[f64]) -> Settled,
     pub hull: Hull,
     pub level: fn(&[f64], f64, usize) -> f64,
     pub kernels: CombineKernels,
@@ -385,6 +404,7 @@ impl Shape {
                 is_minimum: C::IS_MINIMUM,
                 prepare: C::prepare,
                 contract: C::contract,
+                settle: C::settle,
                 hull: C::HULL,
                 level: C::level,
                 kernels: CombineKernels::of::<C>(),

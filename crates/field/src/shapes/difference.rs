@@ -1,5 +1,6 @@
 //! Difference: max(a, -b), from left to right. Outside only a bound.
 
+use super::intersection::greater;
 use crate::shape_prelude::*;
 
 /// See [`difference`].
@@ -41,6 +42,14 @@ pub(crate) fn common(a: Contract, b: Contract) -> Contract {
     Contract { outside: both.outside.max(Metric::Bound), ..both }
 }
 
+/// As [`greater`], of the first operand and the second with its sign turned.
+pub(crate) fn cut(a: Interval, b: Interval, reach: f64, keep: f64) -> Settled {
+    match greater(a, -b, reach, keep) {
+        Settled::Second => Settled::NotSecond,
+        settled => settled,
+    }
+}
+
 impl Combine for Difference {
     const ABOUT: About = About {
         name: "difference",
@@ -54,6 +63,10 @@ impl Combine for Difference {
 
     fn contract(_args: &[f64], a: Contract, b: Contract) -> Result<Contract, String> {
         Ok(common(a, subtrahend(b)?))
+    }
+
+    fn settle(a: Interval, b: Interval, constants: &[f64]) -> Settled {
+        cut(a, b, 0.0, constants[0])
     }
 
     #[inline(always)]

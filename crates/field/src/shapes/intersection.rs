@@ -1,6 +1,7 @@
 //! Intersection: the maximum. Exact inside if the operands are; outside only a bound.
 
 use super::difference::{KEEP_MATERIAL, common};
+use super::union::lesser;
 use crate::shape_prelude::*;
 
 /// See [`intersection`].
@@ -16,6 +17,15 @@ pub fn intersection<F: Into<Field>>(shapes: impl IntoIterator<Item = F>) -> Fiel
     Field::new(&INTERSECTION, [], shapes.into_iter().map(Into::into))
 }
 
+/// Which of two operands is always greater than the other by more than `reach`. With `keep` the material of the first one
+/// stays even there where the second is greater, so that the first is still needed.
+pub(crate) fn greater(a: Interval, b: Interval, reach: f64, keep: f64) -> Settled {
+    match lesser(-a, -b, reach) {
+        Settled::Second if keep > 0.0 => Settled::Open,
+        settled => settled,
+    }
+}
+
 impl Combine for Intersection {
     const ABOUT: About = About {
         name: "intersection",
@@ -29,6 +39,10 @@ impl Combine for Intersection {
 
     fn contract(_args: &[f64], a: Contract, b: Contract) -> Result<Contract, String> {
         Ok(common(a, b))
+    }
+
+    fn settle(a: Interval, b: Interval, constants: &[f64]) -> Settled {
+        greater(a, b, 0.0, constants[0])
     }
 
     #[inline(always)]

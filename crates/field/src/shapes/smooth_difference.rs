@@ -1,6 +1,6 @@
 //! Difference with a polynomial blend. A bound.
 
-use super::difference::{KEEP_MATERIAL, common, subtrahend};
+use super::difference::{KEEP_MATERIAL, common, cut, subtrahend};
 use super::polynomial;
 use super::smooth_intersection::{KEEP, with_keep};
 use crate::shape_prelude::*;
@@ -41,6 +41,10 @@ impl Combine for SmoothDifference {
             );
         }
         Ok(common(a, subtrahend(b)?).at_most_bound())
+    }
+
+    fn settle(a: Interval, b: Interval, constants: &[f64]) -> Settled {
+        cut(a, b, constants[0], constants[KEEP])
     }
 
     #[inline(always)]

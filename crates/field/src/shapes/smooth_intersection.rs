@@ -1,6 +1,7 @@
 //! Intersection with a polynomial blend. A bound.
 
 use super::difference::{KEEP_MATERIAL, common};
+use super::intersection::greater;
 use super::polynomial;
 use crate::shape_prelude::*;
 
@@ -40,6 +41,10 @@ impl Combine for SmoothIntersection {
             );
         }
         Ok(common(a, b).at_most_bound())
+    }
+
+    fn settle(a: Interval, b: Interval, constants: &[f64]) -> Settled {
+        greater(a, b, constants[0], constants[KEEP])
     }
 
     #[inline(always)]

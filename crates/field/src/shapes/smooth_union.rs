@@ -1,6 +1,7 @@
 //! Union with a polynomial blend. A bound.
 
 use super::polynomial;
+use super::union::lesser;
 use crate::shape_prelude::*;
 
 /// See [`smooth_union`].
@@ -43,6 +44,10 @@ impl Combine for SmoothUnion {
 
     fn level(args: &[f64], level: f64, count: usize) -> f64 {
         level + polynomial::total_depth(args, count)
+    }
+
+    fn settle(a: Interval, b: Interval, constants: &[f64]) -> Settled {
+        lesser(a, b, constants[0])
     }
 
     #[inline(always)]

@@ -15,6 +15,17 @@ pub fn union<F: Into<Field>>(shapes: impl IntoIterator<Item = F>) -> Field {
     Field::new(&UNION, [], shapes.into_iter().map(Into::into))
 }
 
+/// Which of two operands is always less than the other by more than `reach`.
+pub(crate) fn lesser(a: Interval, b: Interval, reach: f64) -> Settled {
+    if a.hi() + reach < b.lo() {
+        Settled::First
+    } else if b.hi() + reach < a.lo() {
+        Settled::Second
+    } else {
+        Settled::Open
+    }
+}
+
 impl Combine for Union {
     const ABOUT: About = About {
         name: "union",
@@ -30,6 +41,10 @@ impl Combine for Union {
     fn contract(_args: &[f64], a: Contract, b: Contract) -> Result<Contract, String> {
         let both = a.worse_of(b);
         Ok(Contract { inside: both.inside.max(Metric::Bound), ..both })
+    }
+
+    fn settle(a: Interval, b: Interval, _constants: &[f64]) -> Settled {
+        lesser(a, b, 0.0)
     }
 
     #[inline(always)]
