@@ -19,6 +19,15 @@ pub enum Unary {
     Neg,
     Abs,
     Sqrt,
+    Floor,
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Exp,
+    Ln,
     Not,
 }
 
@@ -32,6 +41,8 @@ pub enum Binary {
     Div,
     Min,
     Max,
+    Atan2,
+    Pow,
     Less,
     And,
     Or,
@@ -185,6 +196,15 @@ impl Run<'_> {
                     Unary::Neg => -v(a),
                     Unary::Abs => v(a).abs(),
                     Unary::Sqrt => v(a).sqrt(),
+                    Unary::Sin => Scalar::sin(v(a)),
+                    Unary::Cos => Scalar::cos(v(a)),
+                    Unary::Tan => Scalar::tan(v(a)),
+                    Unary::Asin => Scalar::asin(v(a)),
+                    Unary::Acos => Scalar::acos(v(a)),
+                    Unary::Atan => Scalar::atan(v(a)),
+                    Unary::Exp => Scalar::exp(v(a)),
+                    Unary::Ln => Scalar::ln(v(a)),
+                    Unary::Floor => Scalar::floor(v(a)),
                     Unary::Not => 1.0 - v(a),
                 },
                 Term::Binary(op, a, b) => match op {
@@ -194,6 +214,8 @@ impl Run<'_> {
                     Binary::Div => v(a) / v(b),
                     Binary::Min => Scalar::min(v(a), v(b)),
                     Binary::Max => Scalar::max(v(a), v(b)),
+                    Binary::Atan2 => Scalar::atan2(v(a), v(b)),
+                    Binary::Pow => Scalar::pow(v(a), v(b)),
                     Binary::Less => truth(v(a) < v(b)),
                     Binary::And => v(a) * v(b),
                     Binary::Or => v(a).max(v(b)),
@@ -381,6 +403,50 @@ impl<'g> Scalar for Expr<'g> {
 
     fn length3(a: Self, b: Self, c: Self) -> Self {
         a.graph.term(Term::Length(a.id, b.id, Some(c.id)))
+    }
+
+    fn sin(self) -> Self {
+        self.unary(Unary::Sin)
+    }
+
+    fn cos(self) -> Self {
+        self.unary(Unary::Cos)
+    }
+
+    fn tan(self) -> Self {
+        self.unary(Unary::Tan)
+    }
+
+    fn asin(self) -> Self {
+        self.unary(Unary::Asin)
+    }
+
+    fn acos(self) -> Self {
+        self.unary(Unary::Acos)
+    }
+
+    fn atan(self) -> Self {
+        self.unary(Unary::Atan)
+    }
+
+    fn exp(self) -> Self {
+        self.unary(Unary::Exp)
+    }
+
+    fn ln(self) -> Self {
+        self.unary(Unary::Ln)
+    }
+
+    fn floor(self) -> Self {
+        self.unary(Unary::Floor)
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        self.binary(Binary::Atan2, x)
+    }
+
+    fn pow(self, exponent: Self) -> Self {
+        self.binary(Binary::Pow, exponent)
     }
 
     fn iterate<const N: usize>(

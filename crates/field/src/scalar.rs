@@ -95,6 +95,60 @@ pub trait Scalar:
         (a.square() + b.square() + c.square()).sqrt()
     }
 
+    /// The largest integer that is not larger; its derivative is 0 everywhere.
+    fn floor(self) -> Self;
+
+    /// The sine of an angle in radians; NaN at the infinities.
+    fn sin(self) -> Self;
+
+    /// The cosine of an angle in radians; NaN at the infinities.
+    fn cos(self) -> Self;
+
+    /// Sine and cosine of one angle, cheaper than both by themselves.
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        (self.sin(), self.cos())
+    }
+
+    /// The tangent of an angle in radians; NaN at the infinities.
+    fn tan(self) -> Self;
+
+    /// The angle in `[-π/2, π/2]` with this sine; NaN outside `[-1, 1]`.
+    fn asin(self) -> Self;
+
+    /// The angle in `[0, π]` with this cosine; NaN outside `[-1, 1]`.
+    fn acos(self) -> Self;
+
+    /// The angle in `[-π/2, π/2]` with this tangent.
+    fn atan(self) -> Self;
+
+    /// The angle in `[-π, π]` of the vector `(x, self)` against the x axis: `y.atan2(x)`. Defined at the origin too, by the
+    /// signs of the zeros as in IEEE 754, with derivative 0.
+    fn atan2(self, x: Self) -> Self;
+
+    /// `e^self`.
+    fn exp(self) -> Self;
+
+    /// The natural logarithm; -∞ at 0, NaN below.
+    fn ln(self) -> Self;
+
+    /// `self^exponent`, as `pow` of IEEE 754: 1 for the exponent 0 (also of 0 and NaN) and for the base 1; a negative base
+    /// has powers with integer exponents only, NaN otherwise.
+    ///
+    /// The derivative by the exponent counts as 0 where the base is not positive, the one by the base where it is infinite
+    /// (at base 0 below exponent 1).
+    fn pow(self, exponent: Self) -> Self;
+
+    /// `self^n` by repeated squaring, a reciprocal for negative `n`; 1 for `n = 0`.
+    #[inline(always)]
+    fn powi(self, n: i32) -> Self {
+        match repeated_squaring(self, n.unsigned_abs()) {
+            None => self.lift(1.0),
+            Some(power) if n < 0 => self.lift(1.0) / power,
+            Some(power) => power,
+        }
+    }
+
     /// `self` limited to `[low, high]`.
     #[inline(always)]
     fn clamp(self, low: f64, high: f64) -> Self {
@@ -132,6 +186,25 @@ pub trait Scalar:
         }
         state
     }
+}
+
+/// `x^n`, or nothing for `n = 0`.
+#[inline(always)]
+fn repeated_squaring<S: Scalar>(x: S, n: u32) -> Option<S> {
+    let (mut square, mut power, mut bits) = (x, None, n);
+    while bits != 0 {
+        if bits & 1 == 1 {
+            power = Some(match power {
+                None => square,
+                Some(power) => square * power,
+            });
+        }
+        bits >>= 1;
+        if bits != 0 {
+            square = square.square();
+        }
+    }
+    power
 }
 
 /// The constants of one node: what its parameters were turned into by its `prepare` function.

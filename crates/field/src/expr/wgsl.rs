@@ -50,9 +50,19 @@ impl Printer {
                         Unary::Neg => format!("-{a}"),
                         Unary::Abs => format!("abs({a})"),
                         Unary::Sqrt => format!("sqrt({a})"),
+                        Unary::Sin => format!("sin({a})"),
+                        Unary::Cos => format!("cos({a})"),
+                        Unary::Tan => format!("tan({a})"),
+                        Unary::Asin => format!("asin({a})"),
+                        Unary::Acos => format!("acos({a})"),
+                        Unary::Atan => format!("atan({a})"),
+                        Unary::Exp => format!("exp({a})"),
+                        Unary::Ln => format!("log({a})"),
+                        Unary::Floor => format!("floor({a})"),
                         Unary::Not => format!("!{a}"),
                     }
                 }
+                Term::Binary(Binary::Pow, a, b) => self.power(a, b),
                 Term::Binary(op, a, b) => {
                     let (a, b) = (self.operand(a), self.operand(b));
                     match op {
@@ -62,6 +72,8 @@ impl Printer {
                         Binary::Div => format!("{a} / {b}"),
                         Binary::Min => format!("min({a}, {b})"),
                         Binary::Max => format!("max({a}, {b})"),
+                        Binary::Atan2 => format!("atan2({a}, {b})"),
+                        Binary::Pow => unreachable!("printed by itself"),
                         Binary::Less => format!("{a} < {b}"),
                         Binary::And => format!("{a} && {b}"),
                         Binary::Or => format!("{a} || {b}"),
@@ -100,6 +112,23 @@ impl Printer {
         }
         let go_on = self.operand(this.go_on);
         let _ = writeln!(self.text, "{indent}    if !({go_on}) {{ break; }}\n{indent}}}");
+    }
+
+    /// The shading language leaves powers of negative bases undefined, so that they are made of the absolute value's.
+    fn power(&self, base: u32, exponent: u32) -> String {
+        let (a, b) = (self.operand(base), self.operand(exponent));
+        match self.terms[exponent as usize] {
+            Term::Literal(bits) => match f64::from_bits(bits) {
+                0.0 => "1f".into(),
+                n if n % 2.0 == 0.0 => format!("pow(abs({a}), {b})"),
+                n if n % 1.0 == 0.0 => format!("sign({a}) * pow(abs({a}), {b})"),
+                _ => format!("pow({a}, {b})"),
+            },
+            _ => {
+                let sign = format!("select(1f, -1f, {a} < 0f && fract(0.5f * {b}) != 0f)");
+                format!("select({sign} * pow(abs({a}), {b}), 1f, {b} == 0f)")
+            }
+        }
     }
 
     fn operand(&self, id: u32) -> String {

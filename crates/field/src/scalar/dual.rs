@@ -52,6 +52,35 @@ impl<T: Scalar> Dual<T> {
         let positive = zero.lt(length);
         T::select(positive, one / T::select(positive, length, one), zero)
     }
+
+    /// A function of `self` with its value and its slope here.
+    #[inline(always)]
+    fn chain(self, value: T, slope: T) -> Self {
+        self.map(
+            value,
+            #[inline(always)]
+            |d| d * slope,
+        )
+    }
+
+    /// A function of `self` and `rhs` with its value and its slopes by both.
+    #[inline(always)]
+    fn chain2(self, rhs: Self, value: T, [by_self, by_rhs]: [T; 2]) -> Self {
+        self.zip(
+            rhs,
+            value,
+            #[inline(always)]
+            |a, b| a * by_self + b * by_rhs,
+        )
+    }
+
+    /// The slope of the arc sine, 0 at its ends.
+    #[inline(always)]
+    fn arc_slope(self) -> T {
+        let one = self.value.lift(1.0);
+        // The product keeps its digits near the ends, 1 - x^2 would lose them.
+        Self::safe_inverse(((one - self.value) * (one + self.value)).sqrt())
+    }
 }
 
 impl<T: Scalar> Add for Dual<T> {
@@ -233,5 +262,89 @@ impl<T: Scalar> Scalar for Dual<T> {
             #[inline(always)]
             |dab, dc| dab + w * dc,
         )
+    }
+
+    #[inline(always)]
+    fn floor(self) -> Self {
+        Self::independent(self.value.floor())
+    }
+
+    #[inline(always)]
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+
+    #[inline(always)]
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = self.value.sin_cos();
+        (self.chain(sin, cos), self.chain(cos, -sin))
+    }
+
+    #[inline(always)]
+    fn tan(self) -> Self {
+        let tan = self.value.tan();
+        self.chain(tan, tan.square() + 1.0)
+    }
+
+    #[inline(always)]
+    fn asin(self) -> Self {
+        self.chain(self.value.asin(), self.arc_slope())
+    }
+
+    #[inline(always)]
+    fn acos(self) -> Self {
+        self.chain(self.value.acos(), -self.arc_slope())
+    }
+
+    #[inline(always)]
+    fn atan(self) -> Self {
+        let one = self.value.lift(1.0);
+        self.chain(self.value.atan(), one / (self.value.square() + 1.0))
+    }
+
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        let inverse = Self::safe_inverse(T::length2(self.value, x.value));
+        // Divided twice, because the square of the length leaves the range of single precision early.
+        let (sin, cos) = (self.value * inverse, x.value * inverse);
+        self.chain2(x, self.value.atan2(x.value), [cos * inverse, -sin * inverse])
+    }
+
+    #[inline(always)]
+    fn exp(self) -> Self {
+        let exp = self.value.exp();
+        self.chain(exp, exp)
+    }
+
+    #[inline(always)]
+    fn ln(self) -> Self {
+        let one = self.value.lift(1.0);
+        self.chain(self.value.ln(), one / self.value)
+    }
+
+    #[inline(always)]
+    fn pow(self, exponent: Self) -> Self {
+        let (a, b) = (self.value, exponent.value);
+        let (zero, one) = (a.lift(0.0), a.lift(1.0));
+        let value = a.pow(b);
+        let finite = zero.lt(a.abs()) | !b.lt(one);
+        let by_base = T::select(finite, b * a.pow(b - 1.0), zero);
+        // Its logarithm is 0 where the base is not positive, so that a constant exponent never makes 0 * NaN.
+        let positive = zero.lt(a);
+        let by_exponent = value * T::select(positive, a, one).ln();
+        self.chain2(exponent, value, [by_base, T::select(positive, by_exponent, zero)])
+    }
+
+    #[inline(always)]
+    fn powi(self, n: i32) -> Self {
+        match n {
+            0 => self.lift(1.0),
+            _ => self.chain(self.value.powi(n), self.value.powi(n.saturating_sub(1)) * f64::from(n)),
+        }
     }
 }

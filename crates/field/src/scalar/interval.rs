@@ -2,9 +2,12 @@
 //!
 //! Every operation returns an interval that holds each exact result of the operation on numbers from its operands. The
 //! processor's rounding mode stays untouched: a correctly rounded result is at most half a unit in the last place off,
-//! so moving each end to the next number outward is enough.
+//! so moving each end to the next number outward is enough. Where a function is not defined on all of its argument, the
+//! result holds its values on the part where it is; where it is defined nowhere, [`Interval::ENTIRE`]. As a number, zero
+//! has no sign: 0 counts as +0.
 
-use super::Scalar;
+use super::{Scalar, repeated_squaring};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// All numbers from `lo` to `hi`, both included.
@@ -93,6 +96,105 @@ impl Interval {
         }
         let [a, b, c, d] = ends;
         Self::outward(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+    }
+}
+
+/// How many numbers the ends of elementary functions are moved outward. The errors of `libm` are below one unit in the last
+/// place; next to a power of two a unit is two numbers.
+const LIBM_ULPS: u32 = 2;
+
+/// A little less than π and 2π, by more than the rounding error of a width.
+const LESS_THAN_PI: f64 = PI - 4e-15;
+const LESS_THAN_TWO_PI: f64 = TAU - 8e-15;
+
+impl Interval {
+    /// What an increasing function makes of the ends, widened by the error of `libm`.
+    fn increasing(self, f: impl Fn(f64) -> f64) -> Self {
+        Self::hull_of_libm([f(self.lo), f(self.hi)])
+    }
+
+    /// The hull of results of `libm`, widened by their errors.
+    fn hull_of_libm<const N: usize>(values: [f64; N]) -> Self {
+        if values.iter().any(|v| v.is_nan()) {
+            return Self::ENTIRE;
+        }
+        let hull = Self {
+            lo: values.into_iter().fold(f64::INFINITY, f64::min),
+            hi: values.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        };
+        (0..LIBM_ULPS).fold(hull, |wide, _| Self::outward(wide.lo, wide.hi))
+    }
+
+    /// `self`, an enclosure of numbers from `[lo, hi]`, without what lies outside.
+    fn within(self, lo: f64, hi: f64) -> Self {
+        Self { lo: self.lo.clamp(lo, hi), hi: self.hi.clamp(lo, hi) }
+    }
+
+    /// The part inside `[lo, hi]`, if there is one.
+    fn part(self, lo: f64, hi: f64) -> Option<Self> {
+        (self.lo <= hi && self.hi >= lo).then(|| self.within(lo, hi))
+    }
+
+    /// A sine or cosine by its values and slopes at both ends. The signs of the slopes are those of computed numbers; these
+    /// are right, because the errors are relative.
+    fn wave(self, values: [f64; 2], slopes: [f64; 2]) -> Self {
+        let width = self.width();
+        // Not true for infinite and NaN widths.
+        let short = width < LESS_THAN_TWO_PI;
+        let [rises_first, rises_last] = slopes.map(|slope| slope > 0.0);
+        let ends = Self::hull_of_libm(values);
+        let range = match (rises_first, rises_last) {
+            _ if !short => Self::ENTIRE,
+            (true, false) => Self { hi: 1.0, ..ends },
+            (false, true) => Self { lo: -1.0, ..ends },
+            // Both turning points lie between, or none.
+            _ if width < LESS_THAN_PI => ends,
+            _ => Self::ENTIRE,
+        };
+        range.within(-1.0, 1.0)
+    }
+
+    /// `x^n` for an odd `n`, or for an `x` that is not negative: increasing there.
+    fn power(x: f64, n: u32) -> Self {
+        match repeated_squaring(Self::point(x.abs()), n) {
+            None => Self::point(1.0),
+            Some(power) if x < 0.0 => -power.within(0.0, f64::INFINITY),
+            Some(power) => power.within(0.0, f64::INFINITY),
+        }
+    }
+
+    /// `1 / self` on the part where it is defined.
+    fn reciprocal(self) -> Self {
+        let inverse = |x: f64| Self::outward(1.0 / x, 1.0 / x);
+        let (negative, positive) = (self.lo < 0.0, self.hi > 0.0);
+        if negative == positive {
+            return Self::ENTIRE;
+        }
+        // An end at 0 has the infinity of the other side.
+        let end = |x: f64| if x == 0.0 { Self::ENTIRE } else { inverse(x) };
+        Self { lo: end(self.hi).lo, hi: end(self.lo).hi }
+    }
+
+    /// The powers of a base that is not negative. They are monotone in the base and in the exponent.
+    fn pow_of_absolute(self, exponent: Self) -> Self {
+        // Without the sign of a zero, whose odd negative powers would have it.
+        let ([a, b], [m, n]) = ([self.lo + 0.0, self.hi + 0.0], [exponent.lo, exponent.hi]);
+        Self::hull_of_libm([libm::pow(a, m), libm::pow(a, n), libm::pow(b, m), libm::pow(b, n)])
+            .within(0.0, f64::INFINITY)
+    }
+
+    /// The powers of a base that is not positive: only those with integer exponents.
+    fn pow_of_negative(self, exponent: Self) -> Option<Self> {
+        let integers = Self { lo: exponent.lo.ceil(), hi: exponent.hi.floor() };
+        if integers.lo > integers.hi {
+            return None;
+        }
+        let power = (-self).pow_of_absolute(integers);
+        Some(match integers.lo % 2.0 {
+            _ if integers.lo < integers.hi => power.hull(-power),
+            0.0 => power,
+            _ => -power,
+        })
     }
 }
 
@@ -205,9 +307,8 @@ impl Scalar for Interval {
     }
 
     fn sqrt(self) -> Self {
-        // Outward rounding may have pushed a square below 0; the exact argument is not negative.
-        let root = Self::outward(self.lo.max(0.0).sqrt(), self.hi.max(0.0).sqrt());
-        Self { lo: root.lo.max(0.0), hi: root.hi }
+        self.part(0.0, f64::INFINITY)
+            .map_or(Self::ENTIRE, |part| Self::outward(part.lo.sqrt(), part.hi.sqrt()).within(0.0, f64::INFINITY))
     }
 
     fn abs(self) -> Self {
@@ -232,5 +333,79 @@ impl Scalar for Interval {
         let a = self.abs();
         let square = Self::outward(a.lo * a.lo, a.hi * a.hi);
         Self { lo: square.lo.max(0.0), hi: square.hi }
+    }
+
+    fn floor(self) -> Self {
+        Self { lo: self.lo.floor(), hi: self.hi.floor() }
+    }
+
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        let ((sin, cos), (sin_last, cos_last)) = (libm::sincos(self.lo), libm::sincos(self.hi));
+        (self.wave([sin, sin_last], [cos, cos_last]), self.wave([cos, cos_last], [-sin, -sin_last]))
+    }
+
+    fn tan(self) -> Self {
+        let between_poles = self.width() < LESS_THAN_PI && (libm::cos(self.lo) > 0.0) == (libm::cos(self.hi) > 0.0);
+        if between_poles { self.increasing(libm::tan) } else { Self::ENTIRE }
+    }
+
+    fn asin(self) -> Self {
+        let limit = FRAC_PI_2.next_up();
+        self.part(-1.0, 1.0).map_or(Self::ENTIRE, |part| part.increasing(libm::asin).within(-limit, limit))
+    }
+
+    fn acos(self) -> Self {
+        let decreasing = |part: Self| Self::hull_of_libm([libm::acos(part.lo), libm::acos(part.hi)]);
+        self.part(-1.0, 1.0).map_or(Self::ENTIRE, |part| decreasing(part).within(0.0, PI.next_up()))
+    }
+
+    fn atan(self) -> Self {
+        let limit = FRAC_PI_2.next_up();
+        self.increasing(libm::atan).within(-limit, limit)
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        let limit = PI.next_up();
+        // The angle jumps where the ray of the negative x axis is crossed from below.
+        if self.lo < 0.0 && self.hi >= 0.0 && x.lo < 0.0 {
+            return Self { lo: -limit, hi: limit };
+        }
+        // Elsewhere it is extreme in corners. Zeros without their signs, which would mean the other side of the jump.
+        let ([y, y_last], [x, x_last]) = ([self.lo + 0.0, self.hi + 0.0], [x.lo + 0.0, x.hi + 0.0]);
+        let corners = [libm::atan2(y, x), libm::atan2(y, x_last), libm::atan2(y_last, x), libm::atan2(y_last, x_last)];
+        Self::hull_of_libm(corners).within(-limit, limit)
+    }
+
+    fn exp(self) -> Self {
+        self.increasing(libm::exp).within(0.0, f64::INFINITY)
+    }
+
+    fn ln(self) -> Self {
+        self.part(0.0, f64::INFINITY).map_or(Self::ENTIRE, |part| part.increasing(libm::log))
+    }
+
+    fn pow(self, exponent: Self) -> Self {
+        let of_positive = self.part(0.0, f64::INFINITY).map(|base| base.pow_of_absolute(exponent));
+        let negative = if self.lo < 0.0 { self.part(f64::NEG_INFINITY, 0.0) } else { None };
+        let of_negative = negative.and_then(|base| base.pow_of_negative(exponent));
+        match (of_positive, of_negative) {
+            (Some(a), Some(b)) => a.hull(b),
+            (a, b) => a.or(b).unwrap_or(Self::ENTIRE),
+        }
+    }
+
+    fn powi(self, n: i32) -> Self {
+        let base = if n % 2 == 0 { self.abs() } else { self };
+        let times = n.unsigned_abs();
+        let power = Self { lo: Self::power(base.lo, times).lo, hi: Self::power(base.hi, times).hi };
+        if n < 0 { power.reciprocal() } else { power }
     }
 }

@@ -31,6 +31,16 @@ impl<I: Simd> Lanes<I> {
         self.0.store_slice(to);
     }
 
+    /// `f` of each lane by itself, in double precision.
+    #[inline(always)]
+    fn each(self, f: impl Fn(f64) -> f64) -> Self {
+        Self(I::f32s::from_fn(
+            self.0.token(),
+            #[inline(always)]
+            |lane| f(self.0[lane].into()) as f32,
+        ))
+    }
+
     /// `value` in every lane.
     #[inline(always)]
     pub fn splat(token: I, value: f32) -> Self {
@@ -147,5 +157,68 @@ impl<I: Simd> Scalar for Lanes<I> {
     #[inline(always)]
     fn max(self, rhs: Self) -> Self {
         Self(self.0.max(rhs.0))
+    }
+
+    #[inline(always)]
+    fn floor(self) -> Self {
+        Self(self.0.floor())
+    }
+
+    #[inline(always)]
+    fn sin(self) -> Self {
+        self.each(libm::sin)
+    }
+
+    #[inline(always)]
+    fn cos(self) -> Self {
+        self.each(libm::cos)
+    }
+
+    #[inline(always)]
+    fn tan(self) -> Self {
+        self.each(libm::tan)
+    }
+
+    #[inline(always)]
+    fn asin(self) -> Self {
+        self.each(libm::asin)
+    }
+
+    #[inline(always)]
+    fn acos(self) -> Self {
+        self.each(libm::acos)
+    }
+
+    #[inline(always)]
+    fn atan(self) -> Self {
+        self.each(libm::atan)
+    }
+
+    #[inline(always)]
+    fn exp(self) -> Self {
+        self.each(libm::exp)
+    }
+
+    #[inline(always)]
+    fn ln(self) -> Self {
+        self.each(libm::log)
+    }
+
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        Self(I::f32s::from_fn(
+            self.0.token(),
+            #[inline(always)]
+            |lane| libm::atan2(self.0[lane].into(), x.0[lane].into()) as f32,
+        ))
+    }
+
+    #[inline(always)]
+    fn pow(self, exponent: Self) -> Self {
+        Self(I::f32s::from_fn(
+            self.0.token(),
+            #[inline(always)]
+            |lane| libm::pow(self.0[lane].into(), exponent.0[lane].into()) as f32,
+        ))
     }
 }

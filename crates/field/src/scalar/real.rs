@@ -1,4 +1,7 @@
 //! `f64`: the reference every other number type is tested against.
+//!
+//! Elementary functions come from the crate `libm`, a port of those of FreeBSD: their errors stay below one unit in the
+//! last place, and they are the same bits with every C library.
 
 use super::Scalar;
 
@@ -39,5 +42,65 @@ impl Scalar for f64 {
     #[inline(always)]
     fn abs(self) -> Self {
         f64::abs(self)
+    }
+
+    #[inline(always)]
+    fn floor(self) -> Self {
+        f64::floor(self)
+    }
+
+    #[inline(always)]
+    fn sin(self) -> Self {
+        libm::sin(self)
+    }
+
+    #[inline(always)]
+    fn cos(self) -> Self {
+        libm::cos(self)
+    }
+
+    #[inline(always)]
+    fn tan(self) -> Self {
+        libm::tan(self)
+    }
+
+    #[inline(always)]
+    fn asin(self) -> Self {
+        libm::asin(self)
+    }
+
+    #[inline(always)]
+    fn acos(self) -> Self {
+        libm::acos(self)
+    }
+
+    #[inline(always)]
+    fn atan(self) -> Self {
+        libm::atan(self)
+    }
+
+    #[inline(always)]
+    fn exp(self) -> Self {
+        libm::exp(self)
+    }
+
+    #[inline(always)]
+    fn ln(self) -> Self {
+        libm::log(self)
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincos(self)
+    }
+
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        libm::atan2(self, x)
+    }
+
+    #[inline(always)]
+    fn pow(self, exponent: Self) -> Self {
+        libm::pow(self, exponent)
     }
 }
