@@ -45,7 +45,6 @@ impl std::error::Error for BindError {}
 /// A compiled field with its numbers. Cheap to clone; share it between threads.
 #[derive(Clone, Debug)]
 pub struct Program {
-    pub(crate) code: Arc<Code>,
     /// All steps.
     pub(crate) whole: Arc<Part>,
     /// For batches: relative to the origin.
@@ -58,7 +57,7 @@ pub struct Program {
 
 impl Program {
     pub(crate) fn bind(
-        code: &Arc<Code>,
+        code: &Code,
         whole: &Arc<Part>,
         values: &[f64],
         origin: DVec3,
@@ -66,8 +65,7 @@ impl Program {
     ) -> Result<Self, BindError> {
         let double = derive(code, values, DVec3::ZERO)?;
         let single = derive(code, values, origin)?.iter().map(|&c| c as f32).collect();
-        let (code, whole) = (Arc::clone(code), Arc::clone(whole));
-        Ok(Self { code, whole, single, double: double.into(), origin, lipschitz })
+        Ok(Self { whole: Arc::clone(whole), single, double: double.into(), origin, lipschitz })
     }
 
     /// What the points of batches are relative to.

@@ -12,11 +12,13 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 mod dual;
 mod interval;
+mod intervals;
 mod lanes;
 mod real;
 
 pub use dual::Dual;
 pub use interval::{Interval, Trilean};
+pub use intervals::{Intervals, LaneTrilean};
 pub use lanes::{LaneMask, Lanes};
 
 /// The outcome of a comparison, one truth value for each lane.
@@ -95,7 +97,13 @@ pub trait Scalar:
         (a.square() + b.square() + c.square()).sqrt()
     }
 
-    /// The largest integer that is not larger; its derivative is 0 everywhere.
+    /// The slope of a step function that has this value: 0, except that an enclosure over a step has any slope.
+    #[inline(always)]
+    fn step_slope(self) -> Self {
+        self.lift(0.0)
+    }
+
+    /// The largest integer that is not larger; its derivative is 0 everywhere, except over the steps of an interval.
     fn floor(self) -> Self;
 
     /// The sine of an angle in radians; NaN at the infinities.

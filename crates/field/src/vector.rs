@@ -80,13 +80,12 @@ pub fn spectral_norm(matrix: glam::DMat3) -> f64 {
     let gram = matrix.transpose() * matrix;
     let [[a, d, e], [_, b, f], [_, _, c]] = gram.to_cols_array_2d();
     let middle = (a + b + c) / 3.0;
-    let spread =
-        (((a - middle).powi(2) + (b - middle).powi(2) + (c - middle).powi(2) + 2.0 * (d * d + e * e + f * f)) / 6.0)
-            .sqrt();
+    let spread = (((a - middle).powi(2) + (b - middle).powi(2) + (c - middle).powi(2) + 2.0 * (d * d + e * e + f * f))
+        / 6.0)
+        .sqrt();
     let largest = if spread > 0.0 {
-        let half_determinant = ((gram - glam::DMat3::from_diagonal(glam::DVec3::splat(middle))) * (1.0 / spread))
-            .determinant()
-            / 2.0;
+        let half_determinant =
+            ((gram - glam::DMat3::from_diagonal(glam::DVec3::splat(middle))) * (1.0 / spread)).determinant() / 2.0;
         let angle = libm::acos(half_determinant.clamp(-1.0, 1.0)) / 3.0;
         middle + 2.0 * spread * libm::cos(angle)
     } else {

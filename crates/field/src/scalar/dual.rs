@@ -1,4 +1,4 @@
-//! Dual numbers: a value and its gradient with respect to three inputs (forward automatic differentiation).
+//! Dual numbers: a value and its derivatives with respect to some inputs (forward automatic differentiation).
 //!
 //! `Dual<T>` is a scalar over any scalar, so `Dual<Lanes<_>>` is a batch of gradients and `Dual<Dual<f64>>` yields
 //! Hessians. At the ties of min, max and select a side is picked; at the origin of a length the derivative is 0.
@@ -8,24 +8,24 @@
 use super::Scalar;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A value and its partial derivatives by x, y and z.
+/// A value and its partial derivatives by `N` inputs: x, y and z, unless otherwise said.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dual<T> {
+pub struct Dual<T, const N: usize = 3> {
     /// The value.
     pub value: T,
-    /// The three partial derivatives.
-    pub gradient: [T; 3],
+    /// The partial derivatives.
+    pub gradient: [T; N],
 }
 
-impl<T: Scalar> Dual<T> {
+impl<T: Scalar, const N: usize> Dual<T, N> {
     /// A value that does not depend on the inputs.
     #[inline(always)]
     pub fn independent(value: T) -> Self {
         let zero = value.lift(0.0);
-        Self { value, gradient: [zero; 3] }
+        Self { value, gradient: [zero; N] }
     }
 
-    /// The input number `axis` (0, 1 or 2), at `value`.
+    /// The input number `axis`, at `value`.
     #[inline(always)]
     pub fn input(value: T, axis: usize) -> Self {
         let mut dual = Self::independent(value);
@@ -35,14 +35,20 @@ impl<T: Scalar> Dual<T> {
 
     #[inline(always)]
     fn map(self, value: T, f: impl Fn(T) -> T) -> Self {
-        let [x, y, z] = self.gradient;
-        Self { value, gradient: [f(x), f(y), f(z)] }
+        let mut gradient = self.gradient;
+        for derivative in &mut gradient {
+            *derivative = f(*derivative);
+        }
+        Self { value, gradient }
     }
 
     #[inline(always)]
     fn zip(self, rhs: Self, value: T, f: impl Fn(T, T) -> T) -> Self {
-        let ([x, y, z], [a, b, c]) = (self.gradient, rhs.gradient);
-        Self { value, gradient: [f(x, a), f(y, b), f(z, c)] }
+        let mut gradient = self.gradient;
+        for (derivative, other) in gradient.iter_mut().zip(rhs.gradient) {
+            *derivative = f(*derivative, other);
+        }
+        Self { value, gradient }
     }
 
     /// `1 / length`, or 0 at length 0.
@@ -83,7 +89,7 @@ impl<T: Scalar> Dual<T> {
     }
 }
 
-impl<T: Scalar> Add for Dual<T> {
+impl<T: Scalar, const N: usize> Add for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, rhs: Self) -> Self {
@@ -96,7 +102,7 @@ impl<T: Scalar> Add for Dual<T> {
     }
 }
 
-impl<T: Scalar> Sub for Dual<T> {
+impl<T: Scalar, const N: usize> Sub for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, rhs: Self) -> Self {
@@ -109,7 +115,7 @@ impl<T: Scalar> Sub for Dual<T> {
     }
 }
 
-impl<T: Scalar> Mul for Dual<T> {
+impl<T: Scalar, const N: usize> Mul for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, rhs: Self) -> Self {
@@ -123,7 +129,7 @@ impl<T: Scalar> Mul for Dual<T> {
     }
 }
 
-impl<T: Scalar> Div for Dual<T> {
+impl<T: Scalar, const N: usize> Div for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, rhs: Self) -> Self {
@@ -137,7 +143,7 @@ impl<T: Scalar> Div for Dual<T> {
     }
 }
 
-impl<T: Scalar> Neg for Dual<T> {
+impl<T: Scalar, const N: usize> Neg for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -149,7 +155,7 @@ impl<T: Scalar> Neg for Dual<T> {
     }
 }
 
-impl<T: Scalar> Add<f64> for Dual<T> {
+impl<T: Scalar, const N: usize> Add<f64> for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, rhs: f64) -> Self {
@@ -157,7 +163,7 @@ impl<T: Scalar> Add<f64> for Dual<T> {
     }
 }
 
-impl<T: Scalar> Sub<f64> for Dual<T> {
+impl<T: Scalar, const N: usize> Sub<f64> for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, rhs: f64) -> Self {
@@ -165,7 +171,7 @@ impl<T: Scalar> Sub<f64> for Dual<T> {
     }
 }
 
-impl<T: Scalar> Mul<f64> for Dual<T> {
+impl<T: Scalar, const N: usize> Mul<f64> for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, rhs: f64) -> Self {
@@ -177,7 +183,7 @@ impl<T: Scalar> Mul<f64> for Dual<T> {
     }
 }
 
-impl<T: Scalar> Scalar for Dual<T> {
+impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
     type Mask = T::Mask;
     type Table = T::Table;
 
@@ -266,7 +272,9 @@ impl<T: Scalar> Scalar for Dual<T> {
 
     #[inline(always)]
     fn floor(self) -> Self {
-        Self::independent(self.value.floor())
+        let value = self.value.floor();
+        let slope = value.step_slope();
+        Self { value, gradient: [slope; N] }
     }
 
     #[inline(always)]

@@ -335,6 +335,10 @@ impl Scalar for Interval {
         Self { lo: square.lo.max(0.0), hi: square.hi }
     }
 
+    fn step_slope(self) -> Self {
+        if self.lo == self.hi { Self::point(0.0) } else { Self::ENTIRE }
+    }
+
     fn floor(self) -> Self {
         Self { lo: self.lo.floor(), hi: self.hi.floor() }
     }

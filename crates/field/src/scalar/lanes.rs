@@ -41,6 +41,12 @@ impl<I: Simd> Lanes<I> {
         ))
     }
 
+    /// Which lanes are NaN.
+    #[inline(always)]
+    pub(crate) fn is_nan(self) -> LaneMask<I> {
+        LaneMask(self.0.is_nan())
+    }
+
     /// `value` in every lane.
     #[inline(always)]
     pub fn splat(token: I, value: f32) -> Self {
