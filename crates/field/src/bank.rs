@@ -2,60 +2,46 @@
 
 use crate::evaluator::Points;
 use crate::kernel::{
-    AffineJob, BATCH, Block, CombineJob, CombineKernels, ModifyJob, ModifyKernels, PrimitiveJob, PrimitiveKernels,
-    WIDEST, affine_gradients, affine_values,
+    AffineJob, BATCH, Block, CombineJob, CombineKernels, ModifyJob, ModifyKernels, PrimitiveJob, WIDEST,
 };
 use crate::lower::{Listing, Op};
 use crate::simd::Level;
 use std::marker::PhantomData;
 
 /// A number type that batches are computed in.
-pub(crate) trait Number {
+pub(crate) trait Number: Sized {
     /// How many blocks hold one number.
     const COMPONENTS: usize;
 
-    fn primitive(kernels: &PrimitiveKernels) -> fn(Level, &mut PrimitiveJob<'_>);
+    /// What belongs to each point register besides the coordinates.
+    type Reach: Default + Clone;
+
+    fn primitive(level: Level, call: PrimitiveCall<'_, Self>);
     fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>);
     fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>);
     fn affine(level: Level, job: &mut AffineJob<'_>);
+
+    /// The reach after an affine map of this norm.
+    fn stretched(_from: &Self::Reach, _norm: f32) -> Self::Reach {
+        Self::Reach::default()
+    }
 }
 
-/// Values alone.
-#[derive(Default)]
-pub(crate) struct Values;
-
-/// Values with their gradients.
-#[derive(Default)]
-pub(crate) struct Gradients;
-
-macro_rules! number {
-    ($Number:ident, $components:literal, $kernel:ident, $affine:ident) => {
-        impl Number for $Number {
-            const COMPONENTS: usize = $components;
-
-            fn primitive(kernels: &PrimitiveKernels) -> fn(Level, &mut PrimitiveJob<'_>) {
-                kernels.$kernel
-            }
-            fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>) {
-                kernels.$kernel
-            }
-            fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>) {
-                kernels.$kernel
-            }
-            fn affine(level: Level, job: &mut AffineJob<'_>) {
-                $affine(level, job);
-            }
-        }
-    };
+/// A primitive's work on one batch, for any number type.
+pub(crate) struct PrimitiveCall<'a, N: Number> {
+    /// The kernel for values alone.
+    pub(crate) table: &'static crate::shape::PrimitiveTable,
+    pub(crate) job: PrimitiveJob<'a>,
+    /// The largest slope; infinite if it is not known.
+    pub(crate) slope: f32,
+    pub(crate) reach: &'a N::Reach,
 }
-
-number!(Values, 1, values, affine_values);
-number!(Gradients, 4, gradients, affine_gradients);
 
 /// The registers of operations over numbers of one type.
 #[derive(Default)]
-pub(crate) struct Bank<N> {
-    points: Vec<Block>,
+pub(crate) struct Bank<N: Number> {
+    pub(crate) points: Vec<Block>,
+    pub(crate) reach: Vec<N::Reach>,
     values: Vec<Block>,
     number: PhantomData<N>,
 }
@@ -70,21 +56,7 @@ impl<N: Number> Bank<N> {
         };
         grow(&mut self.points, listing.points * 3 * N::COMPONENTS);
         grow(&mut self.values, listing.values * N::COMPONENTS);
-    }
-
-    /// Fills point register 0 and returns how many points the kernels run over.
-    pub(crate) fn load(&mut self, points: Points<'_>) -> usize {
-        let given = points.x.len();
-        let count = given.next_multiple_of(WIDEST);
-        for (axis, from) in [points.x, points.y, points.z].into_iter().enumerate() {
-            let number = &mut self.points[axis * N::COMPONENTS..(axis + 1) * N::COMPONENTS];
-            number[0].0[..given].copy_from_slice(from);
-            number[0].0[given..count].fill(0.0);
-            for (by, derivative) in number[1..].iter_mut().enumerate() {
-                derivative.0[..count].fill(if by == axis { 1.0 } else { 0.0 });
-            }
-        }
-        count
+        self.reach.resize(listing.points.max(self.reach.len()), N::Reach::default());
     }
 
     /// The number in a register of values.
@@ -94,49 +66,50 @@ impl<N: Number> Bank<N> {
 
     /// Runs the operations over the first `count` points in point register 0.
     pub(crate) fn run(&mut self, constants: &[f32], ops: &[Op], level: Level, count: usize) {
-        debug_assert!(count <= BATCH, "a batch holds no more");
         for op in ops {
-            match *op {
-                Op::Affine { from, to, constants: run } => {
-                    let size = 3 * N::COMPONENTS;
-                    let [from, to] = self
-                        .points
-                        .get_disjoint_mut([from * size..(from + 1) * size, to * size..(to + 1) * size])
-                        .expect(NOT_IN_PLACE);
-                    N::affine(level, &mut AffineJob { from, constants: &constants[run.range()], to, count });
-                }
-                Op::Primitive { table, point, at, constants: run, before, out } => {
-                    let size = 3 * N::COMPONENTS;
-                    let points = &self.points[point * size..(point + 1) * size];
-                    let (values, out) = apart::<N>(&mut self.values, out);
-                    let job = &mut PrimitiveJob {
-                        points,
-                        at: &constants[at.range()],
-                        constants: &constants[run.range()],
-                        before: before.map(|before| values.at(before)),
-                        out,
-                        count,
-                    };
-                    N::primitive(&table.kernels)(level, job);
-                }
-                Op::Combine { table, a, b, out, constants: run } => {
-                    let (values, out) = apart::<N>(&mut self.values, out);
-                    let (a, b) = (values.at(a), values.at(b));
-                    let job = &mut CombineJob { a, b, constants: &constants[run.range()], out, count };
-                    N::combine(&table.kernels)(level, job);
-                }
-                Op::Modify { table, from, out, constants: run } => {
-                    let (values, out) = apart::<N>(&mut self.values, out);
-                    let job = &mut ModifyJob { from: values.at(from), constants: &constants[run.range()], out, count };
-                    N::modify(&table.kernels)(level, job);
-                }
-                Op::Scale { from, out, factor } => {
-                    let factor = constants[factor];
-                    let (values, out) = apart::<N>(&mut self.values, out);
-                    for (from, out) in values.at(from).iter().zip(out) {
-                        for (from, out) in from.0[..count].iter().zip(&mut out.0) {
-                            *out = from * factor;
-                        }
+            self.step(constants, op, level, count);
+        }
+    }
+
+    /// Runs one operation over the first `count` points.
+    pub(crate) fn step(&mut self, constants: &[f32], op: &Op, level: Level, count: usize) {
+        match *op {
+            Op::Affine { from, to, constants: run } => {
+                let size = 3 * N::COMPONENTS;
+                let constants = &constants[run.range()];
+                self.reach[to] = N::stretched(&self.reach[from], constants[constants.len() - 1]);
+                let [from, to] = self
+                    .points
+                    .get_disjoint_mut([from * size..(from + 1) * size, to * size..(to + 1) * size])
+                    .expect(NOT_IN_PLACE);
+                N::affine(level, &mut AffineJob { from, constants, to, count });
+            }
+            Op::Primitive { table, point, at, constants: run, slope, before, out } => {
+                let size = 3 * N::COMPONENTS;
+                let points = &self.points[point * size..(point + 1) * size];
+                let (values, out) = apart::<N>(&mut self.values, out);
+                let before = before.map(|before| values.at(before));
+                let (at, slope) = (&constants[at.range()], constants[slope as usize]);
+                let job = PrimitiveJob { points, at, constants: &constants[run.range()], before, out, count };
+                N::primitive(level, PrimitiveCall { table, job, slope, reach: &self.reach[point] });
+            }
+            Op::Combine { table, a, b, out, constants: run } => {
+                let (values, out) = apart::<N>(&mut self.values, out);
+                let (a, b) = (values.at(a), values.at(b));
+                let constants = &constants[run.range()];
+                N::combine(&table.kernels)(level, &mut CombineJob { a, b, constants, out, count });
+            }
+            Op::Modify { table, from, out, constants: run } => {
+                let (values, out) = apart::<N>(&mut self.values, out);
+                let (from, constants) = (values.at(from), &constants[run.range()]);
+                N::modify(&table.kernels)(level, &mut ModifyJob { from, constants, out, count });
+            }
+            Op::Scale { from, out, factor } => {
+                let factor = constants[factor];
+                let (values, out) = apart::<N>(&mut self.values, out);
+                for (from, out) in values.at(from).iter().zip(out) {
+                    for (from, out) in from.0[..count].iter().zip(&mut out.0) {
+                        *out = from * factor;
                     }
                 }
             }
@@ -170,3 +143,173 @@ impl<'b, N: Number> Others<'b, N> {
 
 /// Why registers can be borrowed apart.
 const NOT_IN_PLACE: &str = "no operation writes to a register it reads";
+
+/// Values alone.
+#[derive(Default)]
+pub(crate) struct Values;
+
+/// Values with their gradients.
+#[derive(Default)]
+pub(crate) struct Gradients;
+
+macro_rules! at_points {
+    ($Number:ident, $components:literal, $kernel:ident, $affine:ident) => {
+        impl Number for $Number {
+            const COMPONENTS: usize = $components;
+            type Reach = ();
+
+            fn primitive(level: Level, mut call: PrimitiveCall<'_, Self>) {
+                (call.table.kernels.$kernel)(level, &mut call.job);
+            }
+            fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>) {
+                kernels.$kernel
+            }
+            fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>) {
+                kernels.$kernel
+            }
+            fn affine(level: Level, job: &mut AffineJob<'_>) {
+                crate::kernel::$affine(level, job);
+            }
+        }
+
+        impl Bank<$Number> {
+            /// Fills point register 0 and returns how many points the kernels run over.
+            pub(crate) fn load(&mut self, points: Points<'_>) -> usize {
+                let given = points.x.len();
+                let count = given.next_multiple_of(WIDEST);
+                for (axis, from) in [points.x, points.y, points.z].into_iter().enumerate() {
+                    let number = &mut self.points[axis * $components..(axis + 1) * $components];
+                    number[0].0[..given].copy_from_slice(from);
+                    number[0].0[given..count].fill(0.0);
+                    for (by, derivative) in number[1..].iter_mut().enumerate() {
+                        derivative.0[..count].fill(if by == axis { 1.0 } else { 0.0 });
+                    }
+                }
+                count
+            }
+        }
+    };
+}
+
+at_points!(Values, 1, values, affine_values);
+at_points!(Gradients, 4, gradients, affine_gradients);
+
+/// Enclosures of values over boxes: lower and upper ends.
+#[derive(Default)]
+pub(crate) struct Ranges;
+
+/// Enclosures of values and of their derivatives by one parameter, over ranges of that parameter.
+#[derive(Default)]
+pub(crate) struct Jets;
+
+/// How far the points of a register lie around the middle of their box, and how fast they move with the parameter.
+#[derive(Clone)]
+pub(crate) struct Reach {
+    pub(crate) radius: Block,
+    pub(crate) speed: Block,
+}
+
+impl Default for Reach {
+    fn default() -> Self {
+        Self { radius: Block([f32::INFINITY; BATCH]), speed: Block([f32::INFINITY; BATCH]) }
+    }
+}
+
+impl Reach {
+    fn stretched(&self, norm: f32) -> Self {
+        let mut to = self.clone();
+        for number in to.radius.0.iter_mut().chain(&mut to.speed.0) {
+            *number *= norm * WIDER;
+        }
+        to
+    }
+}
+
+/// Makes up for a few rounding errors upward.
+const WIDER: f32 = 1.0 + 8.0 * f32::EPSILON;
+
+/// The rounding errors of a distance formula in single precision, relative to the coordinates and the value.
+const ROUNDING: f32 = 16.0 * f32::EPSILON;
+
+macro_rules! over_boxes {
+    ($Number:ident, $components:literal, $kernel:ident, $affine:ident) => {
+        impl Number for $Number {
+            const COMPONENTS: usize = $components;
+            type Reach = Reach;
+
+            fn primitive(level: Level, call: PrimitiveCall<'_, Self>) {
+                primitive_over_boxes::<Self>(level, call);
+            }
+            fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>) {
+                kernels.$kernel
+            }
+            fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>) {
+                kernels.$kernel
+            }
+            fn affine(level: Level, job: &mut AffineJob<'_>) {
+                crate::kernel::$affine(level, job);
+            }
+            fn stretched(from: &Reach, norm: f32) -> Reach {
+                from.stretched(norm)
+            }
+        }
+    };
+}
+
+over_boxes!(Ranges, 2, ranges, affine_ranges);
+over_boxes!(Jets, 4, jets, affine_jets);
+
+/// A primitive over boxes: its value in the middle, and as much to either side as its largest slope allows.
+///
+/// For distances this is as narrow as an enclosure can be, in contrast to what the formula yields on intervals, and it needs
+/// no kernel of its own.
+fn primitive_over_boxes<N: Number<Reach = Reach>>(level: Level, call: PrimitiveCall<'_, N>) {
+    let PrimitiveCall { table, job, slope, reach } = call;
+    let PrimitiveJob { points, at, constants, before, out, count } = job;
+    let mut middle: [Block; 3] = Default::default();
+    let mut radius = Block::default();
+    let mut size = Block::default();
+    for axis in 0..3 {
+        let (lo, hi) = (&points[axis * N::COMPONENTS], &points[axis * N::COMPONENTS + 1]);
+        let offset = at[axis].abs();
+        for lane in 0..count {
+            let (lo, hi) = (lo.0[lane], hi.0[lane]);
+            let half = 0.5 * (hi - lo) * WIDER;
+            middle[axis].0[lane] = 0.5 * lo + 0.5 * hi;
+            radius.0[lane] += half * half;
+            size.0[lane] += lo.abs().max(hi.abs()) + offset;
+        }
+    }
+    let value = &mut [Block::default()];
+    let mut job = PrimitiveJob { points: &middle, at, constants, before: None, out: value, count };
+    (table.kernels.values)(level, &mut job);
+    let [value] = value;
+    for lane in 0..count {
+        let radius = (radius.0[lane].sqrt() * WIDER).min(reach.radius.0[lane]);
+        let v = value.0[lane];
+        let slack = slope * radius * WIDER + ROUNDING * (size.0[lane] + v.abs());
+        let is_known = slack < f32::INFINITY;
+        out[0].0[lane] = if is_known { v - slack } else { f32::NEG_INFINITY };
+        out[1].0[lane] = if is_known { v + slack } else { f32::INFINITY };
+        if let [_, _, least, most] = out {
+            let speed = slope * reach.speed.0[lane] * WIDER;
+            (least.0[lane], most.0[lane]) =
+                if speed < f32::INFINITY { (-speed, speed) } else { (f32::NEG_INFINITY, f32::INFINITY) };
+        }
+    }
+    let Some(before) = before else { return };
+    for lane in 0..count {
+        let (a, b) = ([before[0].0[lane], before[1].0[lane]], [out[0].0[lane], out[1].0[lane]]);
+        out[0].0[lane] = a[0].min(b[0]);
+        out[1].0[lane] = a[1].min(b[1]);
+        if let ([_, _, least, most], [_, _, least_before, most_before]) = (&mut *out, before) {
+            let (least_before, most_before) = (least_before.0[lane], most_before.0[lane]);
+            if a[1] < b[0] {
+                (least.0[lane], most.0[lane]) = (least_before, most_before);
+            } else if a[0] <= b[1] {
+                least.0[lane] = least.0[lane].min(least_before);
+                most.0[lane] = most.0[lane].max(most_before);
+            }
+        }
+    }
+}

@@ -6,7 +6,7 @@
 //! store, which is slow on some processors. Inside, the formula and everything below it is inlined and compiled for one instruction set.
 
 use crate::expr::Expr;
-use crate::scalar::{Constants, Dual, Interval, Lanes, Scalar};
+use crate::scalar::{Constants, Dual, Interval, Intervals, Lanes, Scalar};
 use crate::shape::{Combine, Modify, Primitive};
 use crate::simd::{Level, dispatch};
 use crate::vector::{Vec3, vec3};
@@ -73,6 +73,42 @@ impl<I: Simd> Packed<I> for Dual<Lanes<I>> {
         for (component, block) in self.gradient.into_iter().zip(&mut to[1..4]) {
             component.store(&mut block.0[lane..lane + Lanes::<I>::COUNT]);
         }
+    }
+}
+
+impl<I: Simd> Packed<I> for Intervals<I> {
+    const COMPONENTS: usize = 2;
+
+    #[inline(always)]
+    fn load(token: I, from: &[Block], lane: usize) -> Self {
+        let [lo, hi] = [&from[0], &from[1]];
+        Self {
+            lo: Lanes::load(token, &lo.0[lane..lane + Lanes::<I>::COUNT]),
+            hi: Lanes::load(token, &hi.0[lane..lane + Lanes::<I>::COUNT]),
+        }
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [Block], lane: usize) {
+        self.lo.store(&mut to[0].0[lane..lane + Lanes::<I>::COUNT]);
+        self.hi.store(&mut to[1].0[lane..lane + Lanes::<I>::COUNT]);
+    }
+}
+
+impl<I: Simd> Packed<I> for Dual<Intervals<I>, 1> {
+    const COMPONENTS: usize = 4;
+
+    #[inline(always)]
+    fn load(token: I, from: &[Block], lane: usize) -> Self {
+        let (value, slope) = from.split_at(2);
+        Self { value: Intervals::load(token, value, lane), gradient: [Intervals::load(token, slope, lane)] }
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [Block], lane: usize) {
+        let (value, slope) = to.split_at_mut(2);
+        self.value.store(value, lane);
+        self.gradient[0].store(slope, lane);
     }
 }
 
@@ -175,6 +211,14 @@ fn combine_gradients<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
     dispatch!(level, token => combine_loop::<C, _, Dual<Lanes<_>>>(token, job, false));
 }
 
+fn combine_ranges<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
+    dispatch!(level, token => combine_loop::<C, _, Intervals<_>>(token, job, false));
+}
+
+fn combine_jets<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
+    dispatch!(level, token => combine_loop::<C, _, Dual<Intervals<_>, 1>>(token, job, false));
+}
+
 fn combine_shares<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
     dispatch!(level, token => combine_loop::<C, _, Lanes<_>>(token, job, true));
 }
@@ -210,6 +254,14 @@ fn modify_values<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
 
 fn modify_gradients<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
     dispatch!(level, token => modify_loop::<M, _, Dual<Lanes<_>>>(token, job));
+}
+
+fn modify_ranges<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
+    dispatch!(level, token => modify_loop::<M, _, Intervals<_>>(token, job));
+}
+
+fn modify_jets<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
+    dispatch!(level, token => modify_loop::<M, _, Dual<Intervals<_>, 1>>(token, job));
 }
 
 /// The affine map `p' = M p + t` as a formula; its first twelve constants are the columns of `M`, then `t`.
@@ -261,6 +313,16 @@ pub(crate) fn affine_gradients(level: Level, job: &mut AffineJob<'_>) {
     dispatch!(level, token => affine_loop::<_, Dual<Lanes<_>>>(token, job));
 }
 
+/// Maps a batch of boxes.
+pub(crate) fn affine_ranges(level: Level, job: &mut AffineJob<'_>) {
+    dispatch!(level, token => affine_loop::<_, Intervals<_>>(token, job));
+}
+
+/// Maps a batch of boxes with the derivatives of their points by one parameter.
+pub(crate) fn affine_jets(level: Level, job: &mut AffineJob<'_>) {
+    dispatch!(level, token => affine_loop::<_, Dual<Intervals<_>, 1>>(token, job));
+}
+
 /// A primitive's formula over one number type.
 pub type PrimitiveFn<S> = fn(Vec3<S>, &Constants<'_, S>) -> S;
 /// A binary operator's formula over one number type.
@@ -274,14 +336,14 @@ pub type Dual2 = Dual<Dual<f64>>;
 macro_rules! kernels {
     ($(#[$doc:meta])* $Kernels:ident, $Trait:ident :: $formula:ident, $Fn:ident, $Job:ident,
      $values:ident, $gradients:ident, [$($arg:ident: $Arg:ty),*], expr [$($ExprArg:ty),*]
-     $(, $extra:ident = $extra_fn:ident)?) => {
+     $(, $extra:ident = $extra_fn:ident)*) => {
         $(#[$doc])*
         #[derive(Debug)]
         #[allow(missing_docs, reason = "one field for each number type")]
         pub struct $Kernels {
             pub values: fn(Level, &mut $Job<'_>),
             pub gradients: fn(Level, &mut $Job<'_>),
-            $(pub $extra: fn(Level, &mut $Job<'_>),)?
+            $(pub $extra: fn(Level, &mut $Job<'_>),)*
             pub real: $Fn<f64>,
             pub interval: $Fn<Interval>,
             pub dual: $Fn<Dual<f64>>,
@@ -298,7 +360,7 @@ macro_rules! kernels {
                 Self {
                     values: $values::<F>,
                     gradients: $gradients::<F>,
-                    $($extra: $extra_fn::<F>,)?
+                    $($extra: $extra_fn::<F>,)*
                     real: F::$formula::<f64>,
                     interval: F::$formula::<Interval>,
                     dual: F::$formula::<Dual<f64>>,
@@ -318,10 +380,10 @@ kernels!(
 kernels!(
     /// A binary operator's formula, for every number type.
     CombineKernels, Combine::combine, CombineFn, CombineJob, combine_values, combine_gradients,
-    [a: S, b: S], expr [Expr<'g>, Expr<'g>], shares = combine_shares
+    [a: S, b: S], expr [Expr<'g>, Expr<'g>], ranges = combine_ranges, jets = combine_jets, shares = combine_shares
 );
 kernels!(
     /// A unary operator's formula, for every number type.
     ModifyKernels, Modify::modify, ModifyFn, ModifyJob, modify_values, modify_gradients,
-    [value: S], expr [Expr<'g>]
+    [value: S], expr [Expr<'g>], ranges = modify_ranges, jets = modify_jets
 );

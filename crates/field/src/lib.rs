@@ -25,6 +25,7 @@
 
 pub mod analysis;
 mod bank;
+pub mod cells;
 mod compile;
 pub mod contract;
 pub mod diagnostic;
@@ -35,6 +36,7 @@ pub mod kernel;
 mod lower;
 mod operation;
 pub mod program;
+mod prune;
 pub mod ray;
 pub mod scalar;
 pub mod shape;
@@ -44,6 +46,7 @@ pub mod structure;
 pub mod vector;
 
 pub use analysis::{Analysis, MAX_DEPTH, analyse, extent};
+pub use cells::{Cell, Cells, Occupancy, Splitter};
 pub use contract::{Aabb, Contract, Extent, Metric};
 pub use diagnostic::{Diagnostic, Severity};
 pub use evaluator::{Evaluator, Points, Shares};

@@ -31,6 +31,7 @@ pub(crate) enum Op {
         point: usize,
         at: Run,
         constants: Run,
+        slope: u32,
         before: Option<usize>,
         out: usize,
     },
@@ -45,7 +46,12 @@ pub(crate) enum Op {
 impl Listing {
     /// The operations for the result of some steps.
     pub(crate) fn of(steps: &Steps) -> Self {
-        Self::with_fates(steps, &Fate::of_all(steps))
+        Self::with_fates(steps, &Fate::of_all(steps, true))
+    }
+
+    /// The operations for the result of some steps, one for each step but the first.
+    pub(crate) fn one_by_one(steps: &Steps) -> Self {
+        Self::with_fates(steps, &Fate::of_all(steps, false))
     }
 
     /// The operations for some steps, with a register of its own for each step.
@@ -66,14 +72,15 @@ impl Listing {
             ops.extend(match *step {
                 Step::Point => None,
                 Step::Affine { from, constants } => Some(Op::Affine { from: place(from), to: out, constants }),
-                Step::Primitive { table, point, at, constants, .. } => {
-                    Some(Op::Primitive { table, point: place(point), at, constants, before: None, out })
+                Step::Primitive { table, point, at, constants, slope, .. } => {
+                    Some(Op::Primitive { table, point: place(point), at, constants, slope, before: None, out })
                 }
                 Step::Combine { a, b, .. } if fate[b.index()].is_folded => {
-                    let Step::Primitive { table, point, at, constants, .. } = steps.list[b.index()] else {
+                    let Step::Primitive { table, point, at, constants, slope, .. } = steps.list[b.index()] else {
                         unreachable!("only primitives are folded")
                     };
-                    Some(Op::Primitive { table, point: place(point), at, constants, before: Some(place(a)), out })
+                    let before = Some(place(a));
+                    Some(Op::Primitive { table, point: place(point), at, constants, slope, before, out })
                 }
                 Step::Combine { table, a, b, constants, .. } => {
                     Some(Op::Combine { table, a: place(a), b: place(b), out, constants })
@@ -108,13 +115,15 @@ struct Fate {
 }
 
 impl Fate {
-    fn of_all(steps: &Steps) -> Vec<Self> {
+    /// Primitives are folded into minima if `fold` says so.
+    fn of_all(steps: &Steps, fold: bool) -> Vec<Self> {
         let mut fates = vec![Self::default(); steps.list.len()];
         for (index, step) in steps.list.iter().enumerate() {
             let index = index as u32;
             fates[index as usize].last_use = index;
             step.operands(|id| fates[id.index()].last_use = index);
             if let Step::Combine { table, a, b, .. } = *step
+                && fold
                 && table.is_minimum
                 && a != b
                 && let Step::Primitive { point, .. } = steps.list[b.index()]

@@ -50,7 +50,7 @@ pub struct Program {
     /// For batches: relative to the origin.
     pub(crate) single: Arc<[f32]>,
     /// For single points: absolute.
-    double: Arc<[f64]>,
+    pub(crate) double: Arc<[f64]>,
     origin: DVec3,
     lipschitz: Option<f64>,
 }
@@ -200,13 +200,15 @@ impl Program {
 pub struct Part {
     pub(crate) steps: Steps,
     listing: OnceLock<Listing>,
+    one_by_one: OnceLock<Listing>,
     kept: OnceLock<Listing>,
     regions: OnceLock<Vec<u32>>,
 }
 
 impl Part {
     pub(crate) fn new(steps: Steps) -> Self {
-        Self { steps, listing: OnceLock::new(), kept: OnceLock::new(), regions: OnceLock::new() }
+        let one_by_one = OnceLock::new();
+        Self { steps, listing: OnceLock::new(), one_by_one, kept: OnceLock::new(), regions: OnceLock::new() }
     }
 
     /// How many steps there are.
@@ -216,6 +218,11 @@ impl Part {
 
     pub(crate) fn listing(&self) -> &Listing {
         self.listing.get_or_init(|| Listing::of(&self.steps))
+    }
+
+    /// The operations, one for each step but the first.
+    pub(crate) fn one_by_one(&self) -> &Listing {
+        self.one_by_one.get_or_init(|| Listing::one_by_one(&self.steps))
     }
 
     /// The operations that keep every intermediate value.

@@ -1,0 +1,135 @@
+//! A hierarchy of boxes over a region of space, each with the part of a program that matters in it.
+//!
+//! Boxes are split on demand, into [`SPLIT`] parts along each axis. What a box holds depends on nothing but its place: not
+//! on the order of the requests, nor on how many threads make them.
+
+use crate::contract::Aabb;
+use crate::kernel::BATCH;
+use crate::program::{Part, Program};
+use crate::prune::{Boxes, Survey};
+use crate::simd::Level;
+use std::sync::{Arc, OnceLock};
+
+/// Into how many parts a box is split along each axis. The parts fill a few vectors of lanes, so that they cost little more
+/// together than one alone.
+pub const SPLIT: usize = 4;
+
+/// As [`SPLIT`], for parts of programs above [`LARGE`], whose ranges would need much memory.
+const SPLIT_OF_LARGE: usize = 2;
+
+/// How many steps make a part large.
+const LARGE: usize = 1 << 14;
+
+/// What is known about the field's sign in a box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Occupancy {
+    /// The field is positive throughout, at least this.
+    Outside(f32),
+    /// The field is negative throughout.
+    Inside,
+    /// There may be a surface.
+    Surface,
+}
+
+/// A box, and what matters in it. Coordinates are relative to the program's origin.
+pub struct Cell {
+    middle: [f32; 3],
+    half: [f32; 3],
+    occupancy: Occupancy,
+    part: Arc<Part>,
+    children: OnceLock<Box<[Cell]>>,
+}
+
+/// The hierarchy.
+pub struct Cells<'p> {
+    program: &'p Program,
+    root: Cell,
+}
+
+/// The scratch memory of one thread for splitting boxes.
+pub struct Splitter {
+    level: Level,
+    survey: Survey,
+}
+
+impl Splitter {
+    /// Works on a given instruction set.
+    pub fn new(level: Level) -> Self {
+        Self { level, survey: Survey::default() }
+    }
+}
+
+impl<'p> Cells<'p> {
+    /// A hierarchy over `region`, in the coordinates of the world.
+    pub fn new(program: &'p Program, region: Aabb) -> Self {
+        let middle = (region.center() - program.origin()).as_vec3().to_array();
+        let half = (region.size() * 0.5).as_vec3().to_array();
+        let (occupancy, part) = (Occupancy::Surface, Arc::clone(&program.whole));
+        Self { program, root: Cell { middle, half, occupancy, part, children: OnceLock::new() } }
+    }
+
+    /// The box of the whole region.
+    pub fn root(&self) -> &Cell {
+        &self.root
+    }
+
+    /// The parts of a box, x fastest, then y, then z.
+    pub fn children<'c>(&'c self, cell: &'c Cell, splitter: &mut Splitter) -> &'c [Cell] {
+        cell.children.get_or_init(|| split(self.program, cell, splitter))
+    }
+}
+
+impl Cell {
+    /// The middle.
+    pub fn middle(&self) -> [f32; 3] {
+        self.middle
+    }
+
+    /// Half the edge lengths.
+    pub fn half(&self) -> [f32; 3] {
+        self.half
+    }
+
+    /// What is known about the field's sign.
+    pub fn occupancy(&self) -> Occupancy {
+        self.occupancy
+    }
+
+    /// What matters here.
+    pub fn part(&self) -> &Arc<Part> {
+        &self.part
+    }
+}
+
+fn split(program: &Program, cell: &Cell, splitter: &mut Splitter) -> Box<[Cell]> {
+    let n = if cell.part.size() > LARGE { SPLIT_OF_LARGE } else { SPLIT };
+    let half = cell.half.map(|half| half / n as f32);
+    let place = |axis: usize, index: usize| cell.middle[axis] + half[axis] * (2 * index + 1) as f32 - cell.half[axis];
+    let places = (0..n * n * n).map(|i| [i % n, i / n % n, i / (n * n)]);
+    let mut middles: [Vec<f32>; 3] = Default::default();
+    for index in places {
+        for (axis, middles) in middles.iter_mut().enumerate() {
+            middles.push(place(axis, index[axis]));
+        }
+    }
+    let [x, y, z] = &middles;
+    assert!(x.len() <= BATCH, "all parts go into one batch");
+    let survey = &mut splitter.survey;
+    survey.run(program, &cell.part, splitter.level, &Boxes { middle: [x, y, z], half });
+    (0..x.len())
+        .map(|place| {
+            let [lo, hi] = survey.range(&cell.part, place);
+            let occupancy = match cell.occupancy {
+                _ if lo > 0.0 => Occupancy::Outside(lo),
+                _ if hi < 0.0 => Occupancy::Inside,
+                _ => Occupancy::Surface,
+            };
+            let part = match occupancy {
+                Occupancy::Surface => survey.reduce(program, &cell.part, place),
+                _ => Arc::clone(&cell.part),
+            };
+            let middle = [x[place], y[place], z[place]];
+            Cell { middle, half, occupancy, part, children: OnceLock::new() }
+        })
+        .collect()
+}

@@ -1,0 +1,126 @@
+//! Cells: what is left of a program in a box computes the same there, bit for bit, and the signs are right.
+
+mod common;
+
+use common::Random;
+use freikugel_field::shapes::*;
+use freikugel_field::simd;
+use freikugel_field::{Aabb, Cell, Cells, Evaluator, Field, Occupancy, Points, Program, Shares, Splitter, Structure};
+use glam::DVec3;
+
+const REGION: Aabb = Aabb { min: DVec3::splat(-2.5), max: DVec3::splat(2.5) };
+
+/// Points in a box.
+fn points_in(cell: &Cell, random: &mut Random, count: usize) -> [Vec<f32>; 3] {
+    let mut axis = |axis: usize| {
+        let (middle, half) = (cell.middle()[axis], cell.half()[axis]);
+        (0..count).map(|_| middle + half * random.range(-1.0, 1.0) as f32).collect()
+    };
+    [axis(0), axis(1), axis(2)]
+}
+
+/// Checks a box and some boxes within.
+fn check(program: &Program, cells: &Cells<'_>, cell: &Cell, random: &mut Random, levels: usize) {
+    const POINTS: usize = 24;
+    let [x, y, z] = points_in(cell, random, POINTS);
+    let points = Points { x: &x, y: &y, z: &z };
+    let mut evaluator = Evaluator::new(program);
+    let (mut all, mut own) = ([0.0; POINTS], [0.0; POINTS]);
+    evaluator.values(points, &mut all);
+    evaluator.values_in(cell.part(), points, &mut own);
+    assert_eq!(all, own);
+    for value in all {
+        match cell.occupancy() {
+            Occupancy::Outside(least) => assert!(value >= least && least > 0.0, "{value} below {least}"),
+            Occupancy::Inside => assert!(value < 0.0, "{value} is not inside"),
+            Occupancy::Surface => {}
+        }
+    }
+    let (mut gradient, mut own_gradient) = ([[0.0; POINTS]; 3], [[0.0; POINTS]; 3]);
+    let [gx, gy, gz] = &mut gradient;
+    evaluator.gradients(points, &mut all, [gx, gy, gz]);
+    let [gx, gy, gz] = &mut own_gradient;
+    evaluator.gradients_in(cell.part(), points, &mut own, [gx, gy, gz]);
+    assert_eq!((all, gradient), (own, own_gradient));
+    let (mut shares, mut own_shares) = (Shares::default(), Shares::default());
+    evaluator.shares(points, &mut shares);
+    evaluator.shares_in(cell.part(), points, &mut own_shares);
+    for (region, shares) in shares.iter() {
+        for (point, &share) in shares.iter().enumerate() {
+            assert_eq!(share, own_shares.of(region, point), "region {region}");
+        }
+    }
+    if levels > 0 {
+        let mut splitter = Splitter::new(simd::best());
+        let children = cells.children(cell, &mut splitter);
+        for _ in 0..4 {
+            check(program, cells, &children[random.below(children.len())], random, levels - 1);
+        }
+    }
+}
+
+fn check_field(fields: &[Field], random: &mut Random) {
+    let program = Structure::compile(fields).expect("a sound field").program(DVec3::new(0.3, -0.2, 0.1));
+    let cells = Cells::new(&program, REGION);
+    check(&program, &cells, cells.root(), random, 4);
+}
+
+#[test]
+fn what_is_left_computes_the_same() {
+    let mut random = Random::new(11);
+    for _ in 0..60 {
+        let field = common::tree(5, &mut random);
+        check_field(&[field], &mut random);
+    }
+}
+
+#[test]
+fn every_shape_survives_pruning() {
+    let mut random = Random::new(5);
+    for (_, _, field) in common::every_shape(3) {
+        let beside = sphere(0.5).at([1.2, 0.4, 0.0]);
+        check_field(&[field.clone(), beside.clone()], &mut random);
+        let blend = smooth_union(0.3, [field, beside]);
+        // A sheet can't be blended with.
+        if Structure::compile(std::slice::from_ref(&blend)).is_ok() {
+            check_field(&[blend], &mut random);
+        }
+    }
+}
+
+/// How many steps matter on average in the boxes at this depth that hold a surface.
+fn steps_left(fields: &[Field], levels: usize) -> f64 {
+    let program = Structure::compile(fields).expect("a sound field").program(DVec3::ZERO);
+    let cells = Cells::new(&program, REGION);
+    let mut splitter = Splitter::new(simd::best());
+    let mut level: Vec<&Cell> = vec![cells.root()];
+    for _ in 0..levels {
+        level = level
+            .into_iter()
+            .filter(|cell| cell.occupancy() == Occupancy::Surface)
+            .flat_map(|cell| cells.children(cell, &mut splitter))
+            .collect();
+    }
+    let left: Vec<usize> = level
+        .into_iter()
+        .filter(|cell| cell.occupancy() == Occupancy::Surface)
+        .map(|cell| cell.part().size())
+        .collect();
+    left.iter().sum::<usize>() as f64 / left.len() as f64
+}
+
+#[test]
+fn distant_operands_are_dropped() {
+    let mut random = Random::new(3);
+    let scattered: Vec<Field> =
+        (0..300).map(|_| sphere(random.range(0.02, 0.1)).at(random.point(2.0).to_array())).collect();
+    // The point and one primitive are the least; with another one and their minimum they are four.
+    let left = steps_left(&scattered, 3);
+    assert!(left < 3.0, "{left}");
+    let left = steps_left(&[smooth_union(0.02, scattered.clone())], 3);
+    assert!(left < 4.0, "{left}");
+    let holes = scattered.into_iter().map(|hole| hole.rotate([1.0, 0.0, 0.0], 30.0));
+    let block = std::iter::once(cuboid([4.0, 4.0, 4.0]).into()).chain(holes);
+    let left = steps_left(&[difference(block)], 3);
+    assert!(left < 5.0, "{left}");
+}
