@@ -41,8 +41,8 @@ pub struct Cell {
 }
 
 /// The hierarchy.
-pub struct Cells<'p> {
-    program: &'p Program,
+pub struct Cells {
+    program: Program,
     root: Cell,
 }
 
@@ -59,12 +59,13 @@ impl Splitter {
     }
 }
 
-impl<'p> Cells<'p> {
+impl Cells {
     /// A hierarchy over `region`, in the coordinates of the world.
-    pub fn new(program: &'p Program, region: Aabb) -> Self {
+    pub fn new(program: &Program, region: Aabb) -> Self {
         let middle = (region.center() - program.origin()).as_vec3().to_array();
         let half = (region.size() * 0.5).as_vec3().to_array();
         let (occupancy, part) = (Occupancy::Surface, Arc::clone(&program.whole));
+        let program = program.clone();
         Self { program, root: Cell { middle, half, occupancy, part, children: OnceLock::new() } }
     }
 
@@ -75,7 +76,7 @@ impl<'p> Cells<'p> {
 
     /// The parts of a box, x fastest, then y, then z.
     pub fn children<'c>(&'c self, cell: &'c Cell, splitter: &mut Splitter) -> &'c [Cell] {
-        cell.children.get_or_init(|| split(self.program, cell, splitter))
+        cell.children.get_or_init(|| split(&self.program, cell, splitter))
     }
 }
 

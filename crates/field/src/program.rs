@@ -78,6 +78,11 @@ impl Program {
         self.lipschitz
     }
 
+    /// All of its steps.
+    pub fn whole(&self) -> &Part {
+        &self.whole
+    }
+
     /// The field at a point, in `f64`.
     pub fn value(&self, p: DVec3) -> f64 {
         self.run(p.to_array().into())
@@ -214,6 +219,16 @@ impl Part {
     /// How many steps there are.
     pub fn size(&self) -> usize {
         self.steps.list.len()
+    }
+
+    /// How many regions have a share somewhere.
+    pub fn region_count(&self) -> usize {
+        self.regions().len()
+    }
+
+    /// The first of these regions.
+    pub fn first_region(&self) -> Option<usize> {
+        self.regions().first().map(|&region| region as usize)
     }
 
     pub(crate) fn listing(&self) -> &Listing {

@@ -20,7 +20,7 @@ fn points_in(cell: &Cell, random: &mut Random, count: usize) -> [Vec<f32>; 3] {
 }
 
 /// Checks a box and some boxes within.
-fn check(program: &Program, cells: &Cells<'_>, cell: &Cell, random: &mut Random, levels: usize) {
+fn check(program: &Program, cells: &Cells, cell: &Cell, random: &mut Random, levels: usize) {
     const POINTS: usize = 24;
     let [x, y, z] = points_in(cell, random, POINTS);
     let points = Points { x: &x, y: &y, z: &z };

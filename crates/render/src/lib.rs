@@ -45,6 +45,7 @@ mod light;
 mod march;
 mod material;
 mod options;
+mod packet;
 mod prepare;
 mod run;
 mod shade;

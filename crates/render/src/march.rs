@@ -7,7 +7,7 @@
 //! There are two kinds of march. [`March::hard`] looks for the first surface. [`March::soft`] looks besides for
 //! the least ratio of clearance to distance travelled, the factor of soft shadows.
 
-use freikugel_field::{Evaluator, Points};
+use freikugel_field::{Evaluator, Part, Points};
 
 /// Rays are removed from the buffers when at least one in this many is done.
 const IDLE_SHARE: usize = 6;
@@ -74,6 +74,15 @@ pub(crate) struct End {
     pub(crate) steps: u32,
     /// For soft marches, the share of the light that arrives.
     pub(crate) factor: f32,
+    /// For soft marches, the ratio at the last step, times the sharpness.
+    pub(crate) before: f32,
+    /// The cell in which the ray met something, by its place among those of the packet.
+    pub(crate) place: u32,
+}
+
+impl End {
+    /// The place of a ray that met nothing.
+    pub(crate) const NOWHERE: u32 = u32::MAX;
 }
 
 /// The rays on their way. All buffers are as long as the fullest wave so far.
@@ -102,8 +111,8 @@ pub(crate) struct March {
 }
 
 impl March {
-    /// Adds a ray.
-    pub(crate) fn push(&mut self, ray: &Start) {
+    /// Adds a ray, for soft marches with the factor so far and the ratio at the last step.
+    pub(crate) fn push(&mut self, ray: &Start, [factor, before]: [f32; 2]) {
         let place = self.count;
         self.count += 1;
         if place == self.id.len() {
@@ -120,8 +129,8 @@ impl March {
         self.base[place] = ray.tolerance[0];
         self.slope[place] = ray.tolerance[1];
         self.sharpness[place] = ray.sharpness;
-        self.factor[place] = 1.0;
-        self.before[place] = 0.0;
+        self.factor[place] = factor;
+        self.before[place] = before;
     }
 
     #[cold]
@@ -149,18 +158,19 @@ impl March {
 
     /// Takes all rays to their first surface. Appends how they ended, in no particular order, and returns how
     /// many field values that took.
-    pub(crate) fn hard(&mut self, field: &mut Evaluator<'_>, pace: Pace, ends: &mut Vec<End>) -> u64 {
-        self.run(field, pace, ends, Self::advance_hard, false)
+    pub(crate) fn hard(&mut self, field: &mut Evaluator<'_>, part: &Part, pace: Pace, ends: &mut Vec<End>) -> u64 {
+        self.run(field, part, pace, ends, Self::advance_hard, false)
     }
 
     /// Takes all rays to the first surface, or to their end while looking for the least factor.
-    pub(crate) fn soft(&mut self, field: &mut Evaluator<'_>, pace: Pace, ends: &mut Vec<End>) -> u64 {
-        self.run(field, pace, ends, Self::advance_soft, true)
+    pub(crate) fn soft(&mut self, field: &mut Evaluator<'_>, part: &Part, pace: Pace, ends: &mut Vec<End>) -> u64 {
+        self.run(field, part, pace, ends, Self::advance_soft, true)
     }
 
     fn run(
         &mut self,
         field: &mut Evaluator<'_>,
+        part: &Part,
         pace: Pace,
         ends: &mut Vec<End>,
         advance: fn(&mut Self, Pace) -> usize,
@@ -179,7 +189,7 @@ impl March {
             }
             let [x, y, z] = &self.point;
             let points = Points { x: &x[..count], y: &y[..count], z: &z[..count] };
-            field.values(points, &mut self.value[..count]);
+            field.values_in(part, points, &mut self.value[..count]);
             evaluations += count as u64;
             if advance(self, pace) * IDLE_SHARE >= count {
                 self.sweep(ends, is_soft);
@@ -262,7 +272,8 @@ impl March {
                 Fate::Exhausted
             };
             let factor = if fate == Fate::Hit || factor < NEGLIGIBLE { 0.0 } else { factor };
-            ends.push(End { id: self.id[ray], fate, t, value, steps: self.steps[ray], factor });
+            let (id, steps, before) = (self.id[ray], self.steps[ray], self.before[ray]);
+            ends.push(End { id, fate, t, value, steps, factor, before, place: End::NOWHERE });
         }
         // Buffer by buffer, since each fits the first-level cache and all of them together do not.
         let Self { id, steps, origin, direction, t, end, base, slope, .. } = self;

@@ -7,10 +7,11 @@
 use crate::light::Lamp;
 use crate::march::Pace;
 use crate::options::Options;
+use crate::vector::Triple;
 use crate::view::{CameraError, View, framed};
 use freikugel_field::ray::ExactRay;
 use freikugel_field::simd::{self, Level};
-use freikugel_field::{Aabb, Contract, Diagnostic, Extent, Field, MaterialId, Program, Structure, analyse};
+use freikugel_field::{Aabb, Cells, Contract, Diagnostic, Extent, Field, MaterialId, Program, Structure, analyse};
 use freikugel_scene::{Camera, Material, Scene};
 use glam::DVec3;
 use std::fmt;
@@ -231,6 +232,10 @@ pub(crate) struct Frame<'r> {
     pub(crate) tolerance: Tolerance,
     /// Where to look for marched objects; everywhere if they have no bounds.
     pub(crate) bounds: Option<Aabb>,
+    /// The cells of the marched program.
+    pub(crate) cells: Option<Cells>,
+    /// The camera, relative to the origin.
+    pub(crate) eye: Triple,
     pub(crate) occlusion: Option<OcclusionSamples>,
     /// The width of the cone that a ray stands for: at the camera, and what it gains per unit of distance.
     pub(crate) footprint: [f32; 2],
@@ -290,6 +295,19 @@ impl<'r> Frame<'r> {
             fixed: fixed / 2.0 * FOOTPRINT_SHARE,
             growth: (growth / 2.0 * FOOTPRINT_SHARE).max(scene.tracing.precision),
         };
+        let bounds = match renderer.bounds {
+            Extent::Finite(bounds) => {
+                let far = bounds.min.abs().max(bounds.max.abs()).max_element();
+                let margin = BOX_MARGIN * bounds.size().max_element() + ROUNDING * far;
+                Some(Aabb { min: bounds.min - margin, max: bounds.max + margin })
+            }
+            Extent::Empty | Extent::Unbounded => None,
+        };
+        let region = bounds.unwrap_or_else(|| {
+            // Where a ray can get to from what the camera sees.
+            let reach = DVec3::splat(2.0 * scene.tracing.max_distance + camera.eye.distance(camera.target));
+            Aabb { min: camera.eye - reach, max: camera.eye + reach }
+        });
         Ok(Self {
             renderer,
             view,
@@ -303,14 +321,9 @@ impl<'r> Frame<'r> {
                 max_steps: scene.tracing.max_steps,
             },
             tolerance,
-            bounds: match renderer.bounds {
-                Extent::Finite(bounds) => {
-                    let far = bounds.min.abs().max(bounds.max.abs()).max_element();
-                    let margin = BOX_MARGIN * bounds.size().max_element() + ROUNDING * far;
-                    Some(Aabb { min: bounds.min - margin, max: bounds.max + margin })
-                }
-                Extent::Empty | Extent::Unbounded => None,
-            },
+            bounds,
+            cells: marched.as_ref().map(|program| Cells::new(program, region)),
+            eye: (camera.eye - origin).as_vec3().to_array(),
             occlusion: scene.occlusion.as_ref().map(|occlusion| {
                 let reach = occlusion.reach.unwrap_or(size * OCCLUSION_REACH);
                 OcclusionSamples::new(f64::from(occlusion.strength), reach)

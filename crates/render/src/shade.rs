@@ -10,6 +10,7 @@
 
 use crate::light::{Dimming, Incoming, Lamp};
 use crate::march::{Fate, Start};
+use crate::packet::Quest;
 use crate::prepare::{Frame, OCCLUSION_SAMPLES, rounding};
 use crate::trace::{Hit, Tracer};
 use crate::vector::{Triple, add_scaled, dot, length, mix, times};
@@ -142,7 +143,7 @@ impl Tracer<'_> {
                 continue;
             }
             let exactness = rounding(length(origin));
-            self.march.push(&Start {
+            self.packet.push(&Start {
                 id: id as u32,
                 origin,
                 direction,
@@ -153,12 +154,13 @@ impl Tracer<'_> {
             });
         }
         let Some(field) = &mut self.marched else { return };
-        self.ends.clear();
-        let pace = frame.pace;
-        self.stats.evaluations += match lamp.dimming {
-            Dimming::None | Dimming::Hard => self.march.hard(field, pace, &mut self.ends),
-            Dimming::Sharpness(_) | Dimming::Clearance(_) => self.march.soft(field, pace, &mut self.ends),
+        let space = frame.space().expect("what is marched has cells");
+        let quest = match lamp.dimming {
+            Dimming::None | Dimming::Hard => Quest::Any,
+            Dimming::Sharpness(_) | Dimming::Clearance(_) => Quest::Least,
         };
+        self.ends.clear();
+        self.stats.evaluations += self.packet.travel(&space, quest, field, &mut self.splitter, &mut self.ends);
         for end in &self.ends {
             lit[end.id as usize].factor = end.factor;
             self.stats.steps += u64::from(end.steps);

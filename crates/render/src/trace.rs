@@ -3,14 +3,16 @@
 //! A [`Tracer`] is the working memory of one thread. It takes rays in waves; all buffers keep their size from wave to
 //! wave.
 
-use crate::march::{End, Fate, March, Start};
+use crate::march::{End, Fate, Start};
 use crate::material::{Footprint, Surface};
+use crate::packet::{Packet, Quest, Space};
 use crate::prepare::{Frame, rounding};
 use crate::stats::Stats;
 use crate::vector::{Triple, add_scaled, dot, length, scaled};
 use crate::view::{Ray, clip};
-use freikugel_field::{Evaluator, Points, Program, Shares};
+use freikugel_field::{Cell, Evaluator, Part, Points, Program, Shares, Splitter};
 use glam::DVec3;
+use std::ops::Range;
 
 /// A hit is a false one if by its gradient the surface is still this many tolerances away.
 const FALSE_HIT: f32 = 2.0;
@@ -58,8 +60,10 @@ struct CameraRay {
 
 /// Where a march ended on a surface.
 #[derive(Clone, Copy)]
-struct Landing {
+struct Landing<'f> {
     ray: u32,
+    /// Where the part of the field that matters there is to be found.
+    cell: &'f Cell,
     t: f32,
     position: Triple,
     gradient: Triple,
@@ -71,12 +75,13 @@ pub(crate) struct Tracer<'f> {
     pub(crate) marched: Option<Evaluator<'f>>,
     pub(crate) everything: Option<Evaluator<'f>>,
     exact: Vec<Evaluator<'f>>,
-    pub(crate) march: March,
+    pub(crate) packet: Packet<'f>,
+    pub(crate) splitter: Splitter,
     pub(crate) ends: Vec<End>,
     pub(crate) cloud: Cloud,
     shares: Shares,
     rays: Vec<CameraRay>,
-    landings: Vec<Landing>,
+    landings: Vec<Landing<'f>>,
     /// What the rays of the last wave met, in no particular order; at most one for each ray.
     pub(crate) hits: Vec<Hit>,
     /// Rays of the last wave that ran out of steps.
@@ -100,7 +105,8 @@ impl<'f> Tracer<'f> {
             marched: frame.marched.as_ref().map(evaluator),
             everything: frame.everything.as_ref().map(evaluator),
             exact: frame.exact.iter().map(evaluator).collect(),
-            march: March::default(),
+            packet: Packet::default(),
+            splitter: Splitter::new(frame.level),
             ends: Vec::new(),
             cloud: Cloud::default(),
             shares: Shares::default(),
@@ -167,7 +173,7 @@ impl<'f> Tracer<'f> {
             sharpness: 1.0,
         };
         if start.span[1] > 0.0 {
-            self.march.push(&start);
+            self.packet.push(&start);
         }
         self.rays.push(CameraRay { ray, exact, begin, start, steps: 0 });
         self.stats.rays.camera += 1;
@@ -189,9 +195,11 @@ impl<'f> Tracer<'f> {
         self.landings.clear();
         let Some(field) = &mut self.marched else { return };
         let pace = self.frame.pace;
+        let space = self.frame.space().expect("what is marched has cells");
         loop {
             self.ends.clear();
-            self.stats.evaluations += self.march.hard(field, pace, &mut self.ends);
+            self.stats.evaluations +=
+                self.packet.travel(&space, Quest::First, field, &mut self.splitter, &mut self.ends);
             self.cloud.clear();
             self.ends.retain(|end| {
                 let ray = &mut self.rays[end.id as usize];
@@ -210,7 +218,12 @@ impl<'f> Tracer<'f> {
                 }
                 lands
             });
-            self.stats.evaluations += self.cloud.gradients(field);
+            let mut first = 0;
+            for ends in self.ends.chunk_by(|a, b| a.place == b.place) {
+                let part = self.packet.places[ends[0].place as usize].part();
+                self.stats.evaluations += self.cloud.gradients(field, part, first..first + ends.len());
+                first += ends.len();
+            }
             for (index, end) in self.ends.iter().enumerate() {
                 let start = &mut self.rays[end.id as usize].start;
                 let gradient = self.cloud.gradient_at(index);
@@ -224,16 +237,17 @@ impl<'f> Tracer<'f> {
                 let is_false = end.value > FALSE_HIT * limit * in_values && end.value > finer[0] + finer[1] * end.t;
                 if end.fate == Fate::Hit && is_false {
                     start.tolerance = finer;
-                    self.march.push(&Start { span: [end.t, start.span[1]], steps: end.steps, ..*start });
+                    self.packet.push(&Start { span: [end.t, start.span[1]], steps: end.steps, ..*start });
                 } else {
                     if end.t == 0.0 && end.value < -limit {
                         self.stats.inside += 1;
                     }
                     let position = self.cloud.point_at(index);
-                    self.landings.push(Landing { ray: end.id, t: end.t, position, gradient });
+                    let cell = self.packet.places[end.place as usize];
+                    self.landings.push(Landing { ray: end.id, cell, t: end.t, position, gradient });
                 }
             }
-            if self.march.is_empty() {
+            if self.packet.is_empty() {
                 break;
             }
         }
@@ -247,62 +261,67 @@ impl<'f> Tracer<'f> {
         if self.landings.is_empty() {
             return;
         }
-        let asks_for_shares = !frame.renderer.is_uniform;
-        if asks_for_shares {
-            self.cloud.clear();
-            for landing in &self.landings {
-                self.cloud.push(landing.position);
-            }
-            let field = self.marched.as_mut().expect("something was marched");
-            self.stats.evaluations += self.cloud.shares(field, &mut self.shares);
-        }
-        for (index, landing) in self.landings.iter().enumerate() {
-            let CameraRay { begin, start, .. } = &self.rays[landing.ray as usize];
-            let share = |region: usize| self.shares.of(region, index);
-            let main = match asks_for_shares {
-                true => {
-                    (1..paints.len()).fold(0, |best, region| if share(region) > share(best) { region } else { best })
-                }
-                false => 0,
-            };
-            let viewer = start.direction.map(|x| -x);
-            let slope = length(landing.gradient);
-            let mut normal = scaled(landing.gradient, 1.0 / slope);
-            if !normal.iter().all(|x| x.is_finite()) {
-                normal = viewer;
-            }
-            if paints[main].is_sheet && dot(normal, viewer) < 0.0 {
-                normal = normal.map(|x| -x);
-            }
-            let distance = begin + f64::from(landing.t);
-            let offset = length(landing.position);
-            let uncertainty = frame.tolerance.at(distance, f64::from(offset))[0] as f32;
-            let footprint = Footprint { width: frame.width_at(distance), normal, viewer, uncertainty };
-            let point = frame.origin + DVec3::from(landing.position.map(f64::from));
-            let mut surface = Surface::of(paints[main].material, point, &footprint);
+        for landings in self.landings.chunk_by(|a, b| std::ptr::eq(a.cell, b.cell)) {
+            let part = landings[0].cell.part();
+            // Most cells hold one region, which has it all.
+            let asks_for_shares = !frame.renderer.is_uniform && part.region_count() > 1;
             if asks_for_shares {
-                let mut total = share(main);
-                for region in (0..paints.len()).filter(|&region| region != main) {
-                    let share = share(region);
-                    if share > 0.0 {
-                        total += share;
-                        let other = Surface::of(paints[region].material, point, &footprint);
-                        surface.mix(&other, share / total);
+                self.cloud.clear();
+                for landing in landings {
+                    self.cloud.push(landing.position);
+                }
+                let field = self.marched.as_mut().expect("something was marched");
+                self.stats.evaluations += self.cloud.shares(field, part, &mut self.shares);
+            }
+            for (index, landing) in landings.iter().enumerate() {
+                let CameraRay { begin, start, .. } = &self.rays[landing.ray as usize];
+                let main = match asks_for_shares {
+                    true => self
+                        .shares
+                        .iter()
+                        .reduce(|best, other| if other.1[index] > best.1[index] { other } else { best })
+                        .map_or(0, |(region, _)| region),
+                    false => part.first_region().unwrap_or(0),
+                };
+                let viewer = start.direction.map(|x| -x);
+                let slope = length(landing.gradient);
+                let mut normal = scaled(landing.gradient, 1.0 / slope);
+                if !normal.iter().all(|x| x.is_finite()) {
+                    normal = viewer;
+                }
+                if paints[main].is_sheet && dot(normal, viewer) < 0.0 {
+                    normal = normal.map(|x| -x);
+                }
+                let distance = begin + f64::from(landing.t);
+                let offset = length(landing.position);
+                let uncertainty = frame.tolerance.at(distance, f64::from(offset))[0] as f32;
+                let footprint = Footprint { width: frame.width_at(distance), normal, viewer, uncertainty };
+                let point = frame.origin + DVec3::from(landing.position.map(f64::from));
+                let mut surface = Surface::of(paints[main].material, point, &footprint);
+                if asks_for_shares {
+                    let mut total = self.shares.of(main, index);
+                    for (region, shares) in self.shares.iter().filter(|&(region, _)| region != main) {
+                        let share = shares[index];
+                        if share > 0.0 {
+                            total += share;
+                            let other = Surface::of(paints[region].material, point, &footprint);
+                            surface.mix(&other, share / total);
+                        }
                     }
                 }
+                self.hits.push(Hit {
+                    ray: landing.ray,
+                    object: paints[main].object,
+                    position: landing.position,
+                    normal,
+                    viewer,
+                    distance,
+                    uncertainty,
+                    tolerance: uncertainty,
+                    gradient: slope.clamp(FLATTEST, 1.0),
+                    surface,
+                });
             }
-            self.hits.push(Hit {
-                ray: landing.ray,
-                object: paints[main].object,
-                position: landing.position,
-                normal,
-                viewer,
-                distance,
-                uncertainty,
-                tolerance: uncertainty,
-                gradient: slope.clamp(FLATTEST, 1.0),
-                surface,
-            });
         }
     }
 
@@ -338,7 +357,8 @@ impl<'f> Tracer<'f> {
                     surface: Surface::default(),
                 });
             }
-            self.stats.evaluations += self.cloud.gradients(evaluator);
+            let all = 0..self.hits.len() - first;
+            self.stats.evaluations += self.cloud.gradients(evaluator, evaluator.program().whole(), all);
             for (place, hit) in self.hits[first..].iter_mut().enumerate() {
                 self.stats.inside += u64::from(hit.distance == 0.0 && !paint.is_sheet);
                 let gradient = self.cloud.gradient_at(place);
@@ -366,6 +386,12 @@ impl<'f> Tracer<'f> {
 }
 
 impl Frame<'_> {
+    /// What marching rays travel through.
+    pub(crate) fn space(&self) -> Option<Space<'_>> {
+        let cells = self.cells.as_ref()?;
+        Some(Space { cells, eye: self.eye, pixel: self.footprint, pace: self.pace })
+    }
+
     /// The width of the cone around a ray at a distance from the camera.
     fn width_at(&self, distance: f64) -> f32 {
         let [fixed, growth] = self.footprint;
@@ -405,19 +431,22 @@ impl Cloud {
         self.value.len() as u64
     }
 
-    fn gradients(&mut self, field: &mut Evaluator<'_>) -> u64 {
+    /// Computes values and gradients at some of the points, where `part` holds, and returns how many there are.
+    fn gradients(&mut self, field: &mut Evaluator<'_>, part: &Part, range: Range<usize>) -> u64 {
         let count = self.point[0].len();
         self.value.resize(count, 0.0);
         for numbers in &mut self.gradient {
             numbers.resize(count, 0.0);
         }
-        let gradient = self.gradient.each_mut().map(Vec::as_mut_slice);
-        field.gradients(Self::points(&self.point), &mut self.value, gradient);
-        count as u64
+        let gradient = self.gradient.each_mut().map(|numbers| &mut numbers[range.clone()]);
+        let [x, y, z] = self.point.each_ref().map(|numbers| &numbers[range.clone()]);
+        let places = range.len() as u64;
+        field.gradients_in(part, Points { x, y, z }, &mut self.value[range], gradient);
+        places
     }
 
-    fn shares(&mut self, field: &mut Evaluator<'_>, shares: &mut Shares) -> u64 {
-        field.shares(Self::points(&self.point), shares);
+    fn shares(&mut self, field: &mut Evaluator<'_>, part: &Part, shares: &mut Shares) -> u64 {
+        field.shares_in(part, Self::points(&self.point), shares);
         self.point[0].len() as u64
     }
 }
