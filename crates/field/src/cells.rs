@@ -86,9 +86,9 @@ impl Cell {
         self.middle
     }
 
-    /// Half the edge lengths.
+    /// Half the edge lengths. Boxes overlap by more than rounding errors, so that nothing falls between them.
     pub fn half(&self) -> [f32; 3] {
-        self.half
+        overlapping(self.middle, self.half)
     }
 
     /// What is known about the field's sign.
@@ -100,6 +100,13 @@ impl Cell {
     pub fn part(&self) -> &Arc<Part> {
         &self.part
     }
+}
+
+/// What boxes overlap by, relative to their places and sizes.
+const OVERLAP: f32 = 16.0 * f32::EPSILON;
+
+fn overlapping(middle: [f32; 3], half: [f32; 3]) -> [f32; 3] {
+    std::array::from_fn(|axis| half[axis] + OVERLAP * (middle[axis].abs() + half[axis]))
 }
 
 fn split(program: &Program, cell: &Cell, splitter: &mut Splitter) -> Box<[Cell]> {
@@ -116,7 +123,10 @@ fn split(program: &Program, cell: &Cell, splitter: &mut Splitter) -> Box<[Cell]>
     let [x, y, z] = &middles;
     assert!(x.len() <= BATCH, "all parts go into one batch");
     let survey = &mut splitter.survey;
-    survey.run(program, &cell.part, splitter.level, &Boxes { middle: [x, y, z], half });
+    // The largest overlap of all parts is that of those farthest out.
+    let farthest = std::array::from_fn(|axis| cell.middle[axis].abs() + cell.half[axis]);
+    let boxes = Boxes { middle: [x, y, z], half: overlapping(farthest, half) };
+    survey.run(program, &cell.part, splitter.level, &boxes);
     (0..x.len())
         .map(|place| {
             let [lo, hi] = survey.range(&cell.part, place);

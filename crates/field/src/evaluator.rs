@@ -83,6 +83,11 @@ impl<'p> Evaluator<'p> {
         }
     }
 
+    /// The instruction set it runs on.
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
     /// What it runs.
     pub fn program(&self) -> &'p Program {
         self.program

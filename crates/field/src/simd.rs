@@ -75,3 +75,13 @@ macro_rules! dispatch {
 }
 
 pub(crate) use dispatch;
+
+/// Runs `work` compiled for an instruction set, so that loops in it are vectorised for that. Write the closure as
+/// `#[inline(always)] || ...`, in the call itself.
+#[inline(always)]
+pub fn with<R>(level: Level, work: impl FnOnce() -> R) -> R {
+    dispatch!(level, token => {
+        let _ = token;
+        work()
+    })
+}

@@ -7,6 +7,7 @@
 
 use crate::march::{End, Fate, March, Pace, Start};
 use crate::vector::Triple;
+use freikugel_field::simd::{self, Level};
 use freikugel_field::{Cell, Cells, Evaluator, Occupancy, Splitter};
 
 /// A part with this many steps is not worth splitting further: the point and two primitives with their union.
@@ -58,14 +59,28 @@ pub(crate) struct Packet<'f> {
 struct Bundle {
     starts: Vec<Start>,
     states: Vec<State>,
+    /// The rays that meet the boxes on the way from the root to the one being visited; first all rays.
+    groups: Vec<Group>,
+    found: Vec<Found>,
+    met: Vec<Met>,
+}
+
+/// Some rays of a bundle.
+#[derive(Default)]
+struct Group {
+    /// Their places in the bundle.
+    ray: Vec<u32>,
     origin: [Vec<f32>; 3],
     inverse: [Vec<f32>; 3],
     near: Vec<f32>,
     /// Beyond this nothing can change a ray's fate any more.
     far: Vec<f32>,
     shaft: Shaft,
-    found: Vec<Found>,
-    met: Vec<Met>,
+    /// Where each ray enters and leaves the box tested last.
+    enter: Vec<f32>,
+    leave: Vec<f32>,
+    /// Which rays meet it.
+    meets: Vec<u32>,
 }
 
 /// What is known about a ray so far.
@@ -95,11 +110,11 @@ struct Met {
     span: [f32; 2],
 }
 
-/// Bounds of the rays of a bundle.
+/// Bounds of the rays of a group.
 #[derive(Clone, Copy, Default)]
 struct Shaft {
     origin: [[f32; 2]; 3],
-    direction: [[f32; 2]; 3],
+    inverse: [[f32; 2]; 3],
     near: f32,
     far: f32,
 }
@@ -140,24 +155,37 @@ impl<'f> Packet<'f> {
 
 impl Bundle {
     fn push(&mut self, start: &Start) {
-        let [near, far] = start.span;
         self.states.push(State {
             fate: Fate::Passed,
-            t: far,
+            t: start.span[1],
             value: f32::INFINITY,
             steps: start.steps,
             factor: 1.0,
             before: 0.0,
             find: u32::MAX,
         });
-        for axis in 0..3 {
-            let d = start.direction[axis];
-            self.origin[axis].push(start.origin[axis]);
-            self.inverse[axis].push(1.0 / if d.abs() < LEAST_COMPONENT { LEAST_COMPONENT.copysign(d) } else { d });
-        }
-        self.near.push(near);
-        self.far.push(far);
         self.starts.push(*start);
+    }
+
+    /// Makes the group of all rays.
+    fn gather(&mut self) {
+        if self.groups.is_empty() {
+            self.groups.push(Group::default());
+        }
+        let group = &mut self.groups[0];
+        group.clear();
+        for (ray, start) in self.starts.iter().enumerate() {
+            group.ray.push(ray as u32);
+            for axis in 0..3 {
+                let d = start.direction[axis];
+                group.origin[axis].push(start.origin[axis]);
+                group.inverse[axis].push(1.0 / if d.abs() < LEAST_COMPONENT { LEAST_COMPONENT.copysign(d) } else { d });
+            }
+            let [near, far] = start.span;
+            group.near.push(near);
+            group.far.push(far);
+        }
+        group.shaft = Shaft::around(group);
     }
 
     /// Appends how all rays ended and forgets them.
@@ -168,48 +196,83 @@ impl Bundle {
             let factor = if fate == Fate::Hit { 0.0 } else { factor };
             End { id: start.id, fate, t, value, steps, factor, before, place }
         };
-        for (find, found) in self.found.iter().enumerate() {
-            if self.states[found.ray as usize].find == find as u32 {
-                ends.push(end(found.ray as usize, found.place));
-            }
-        }
+        ends.extend(self.found.iter().map(|found| end(found.ray as usize, found.place)));
         let nothing = (0..self.starts.len()).filter(|&ray| self.states[ray].find == u32::MAX);
         ends.extend(nothing.map(|ray| end(ray, End::NOWHERE)));
         self.starts.clear();
         self.states.clear();
         self.found.clear();
+    }
+}
+
+impl Group {
+    fn clear(&mut self) {
+        self.ray.clear();
         for numbers in self.origin.iter_mut().chain(&mut self.inverse).chain([&mut self.near, &mut self.far]) {
             numbers.clear();
         }
     }
 
-    /// Where each ray meets a box, if it does before its end.
-    fn meet(&mut self, middle: Triple, half: Triple) {
-        self.met.clear();
-        for ray in 0..self.starts.len() {
-            if let Some(span) = self.span(ray, middle, half) {
-                self.met.push(Met { ray: ray as u32, span });
+    /// Finds the rays that meet a box before their end, and where they enter and leave it.
+    fn meet(&mut self, level: Level, middle: Triple, half: Triple) {
+        let count = self.ray.len();
+        self.enter.resize(count, 0.0);
+        self.leave.resize(count, 0.0);
+        let Self { origin, inverse, near, far, enter, leave, .. } = self;
+        simd::with(
+            level,
+            #[inline(always)]
+            || {
+                enter.copy_from_slice(near);
+                leave.copy_from_slice(far);
+                for axis in 0..3 {
+                    let (origin, inverse) = (&origin[axis][..count], &inverse[axis][..count]);
+                    let (enter, leave) = (&mut enter[..count], &mut leave[..count]);
+                    let (middle, half) = (middle[axis], half[axis]);
+                    for ray in 0..count {
+                        let towards = (middle - origin[ray]) * inverse[ray];
+                        let reach = half * inverse[ray].abs();
+                        let (first, last) = (towards - reach, towards + reach);
+                        enter[ray] = if first > enter[ray] { first } else { enter[ray] };
+                        leave[ray] = if last < leave[ray] { last } else { leave[ray] };
+                    }
+                }
+                for ray in 0..count {
+                    let seam = SEAM * (enter[ray].abs() + leave[ray].abs());
+                    enter[ray] -= seam;
+                    leave[ray] += seam;
+                }
+            },
+        );
+        self.meets.clear();
+        self.meets.extend((0..count as u32).filter(|&ray| self.enter[ray as usize] <= self.leave[ray as usize]));
+    }
+
+    /// Lets rays that met something go no farther.
+    fn stop(&mut self, states: &[State]) {
+        for (far, &ray) in self.far.iter_mut().zip(&self.ray) {
+            if states[ray as usize].find != u32::MAX {
+                *far = f32::NEG_INFINITY;
             }
         }
     }
 
-    /// Whether any ray meets a box before its end.
-    fn meets(&self, middle: Triple, half: Triple) -> bool {
-        (0..self.starts.len()).any(|ray| self.span(ray, middle, half).is_some())
-    }
-
-    #[inline(always)]
-    fn span(&self, ray: usize, middle: Triple, half: Triple) -> Option<[f32; 2]> {
-        let (mut near, mut far) = (self.near[ray], self.far[ray]);
+    /// The rays of `from` that meet the box that those were tested with last.
+    fn take(&mut self, from: &Self) {
+        self.clear();
+        self.ray.extend(from.meets.iter().map(|&ray| from.ray[ray as usize]));
         for axis in 0..3 {
-            let (origin, inverse) = (self.origin[axis][ray], self.inverse[axis][ray]);
-            let (towards, reach) = ((middle[axis] - origin) * inverse, half[axis] * inverse.abs());
-            near = near.max(towards - reach);
-            far = far.min(towards + reach);
+            pick(&mut self.origin[axis], &from.origin[axis], &from.meets);
+            pick(&mut self.inverse[axis], &from.inverse[axis], &from.meets);
         }
-        let seam = SEAM * (near.abs() + far.abs());
-        (near <= far + seam).then(|| [(near - seam).max(self.near[ray]), (far + seam).min(self.far[ray])])
+        pick(&mut self.near, &from.near, &from.meets);
+        pick(&mut self.far, &from.far, &from.meets);
+        self.shaft = Shaft::around(self);
     }
+}
+
+fn pick(to: &mut Vec<f32>, from: &[f32], places: &[u32]) {
+    to.extend(places.iter().map(|&place| from[place as usize]));
 }
 
 /// A packet on its way.
@@ -225,34 +288,42 @@ struct Trip<'a, 'f, 'e> {
 
 impl<'f> Trip<'_, 'f, '_> {
     fn take(&mut self, bundle: &mut Bundle) -> u64 {
-        bundle.shaft = Shaft::around(&bundle.starts);
+        bundle.gather();
         let root = self.space.cells.root();
         // What lies outside all cells can still dim a soft shadow.
         let mut evaluations = self.march_outside(bundle, root, |[near, _], [enter, _]| [near, enter]);
-        evaluations += self.visit(bundle, root);
+        evaluations += self.visit(bundle, root, 0);
         evaluations + self.march_outside(bundle, root, |[_, far], [_, leave]| [leave, far])
     }
 
-    fn visit(&mut self, bundle: &mut Bundle, cell: &'f Cell) -> u64 {
-        if self.is_small(cell) {
-            return self.march_through(bundle, cell);
+    /// Visits a box with the group at `depth`, of which some rays may meet it.
+    fn visit(&mut self, bundle: &mut Bundle, cell: &'f Cell, depth: usize) -> u64 {
+        let group = &mut bundle.groups[depth];
+        group.meet(self.field.level(), cell.middle(), cell.half());
+        if group.meets.is_empty() {
+            return 0;
         }
+        if self.is_small(cell) {
+            return self.march_through(bundle, cell, depth);
+        }
+        if bundle.groups.len() == depth + 1 {
+            bundle.groups.push(Group::default());
+        }
+        let [.., from, group] = &mut bundle.groups[..depth + 2] else { unreachable!("two groups") };
+        group.take(from);
         let children = self.space.cells.children(cell, self.splitter);
         let side = (1..).find(|n| n * n * n >= children.len()).expect("a cube of boxes");
+        let ahead = [0, 1, 2].map(|axis| group.shaft.rises(axis));
         let mut evaluations = 0;
         for place in 0..children.len() {
             let index = [place % side, place / side % side, place / (side * side)];
-            let mut child = 0;
-            for axis in (0..3).rev() {
-                let ahead = bundle.shaft.rises(axis);
-                child = child * side + if ahead { index[axis] } else { side - 1 - index[axis] };
-            }
+            let child = (0..3)
+                .rev()
+                .fold(0, |child, axis| child * side + if ahead[axis] { index[axis] } else { side - 1 - index[axis] });
             let child = &children[child];
-            if self.is_of_no_interest(child) || !bundle.shaft.meets(child.middle(), child.half()) {
-                continue;
-            }
-            if bundle.meets(child.middle(), child.half()) {
-                evaluations += self.visit(bundle, child);
+            let shaft = &bundle.groups[depth + 1].shaft;
+            if !self.is_of_no_interest(child) && shaft.meets(child.middle(), child.half()) {
+                evaluations += self.visit(bundle, child, depth + 1);
             }
         }
         evaluations
@@ -284,22 +355,38 @@ impl<'f> Trip<'_, 'f, '_> {
         if self.quest != Quest::Least {
             return 0;
         }
+        let group = &mut bundle.groups[0];
+        group.meet(self.field.level(), root.middle(), root.half());
         bundle.met.clear();
-        for ray in 0..bundle.starts.len() {
-            let (near, far) = (bundle.near[ray], bundle.far[ray]);
-            let inside = bundle.span(ray, root.middle(), root.half()).unwrap_or([far, far]);
+        for ray in 0..group.ray.len() {
+            let (near, far) = (group.near[ray], group.far[ray]);
+            let (enter, leave) = (group.enter[ray].max(near), group.leave[ray].min(far));
+            let inside = if enter <= leave { [enter, leave] } else { [far, far] };
             let span = stretch([near, far], inside);
             if span[0] < span[1] {
-                bundle.met.push(Met { ray: ray as u32, span });
+                bundle.met.push(Met { ray: group.ray[ray], span });
             }
         }
         self.march_met(bundle, root)
     }
 
-    /// Lets the rays that meet a cell march through it.
-    fn march_through(&mut self, bundle: &mut Bundle, cell: &'f Cell) -> u64 {
-        bundle.meet(cell.middle(), cell.half());
-        self.march_met(bundle, cell)
+    /// Lets the rays of a group that meet a cell march through it.
+    fn march_through(&mut self, bundle: &mut Bundle, cell: &'f Cell, depth: usize) -> u64 {
+        let group = &bundle.groups[depth];
+        bundle.met.clear();
+        bundle.met.extend(group.meets.iter().map(|&place| {
+            let place = place as usize;
+            let span = [group.enter[place].max(group.near[place]), group.leave[place].min(group.far[place])];
+            Met { ray: group.ray[place], span }
+        }));
+        let finds = bundle.found.len();
+        let evaluations = self.march_met(bundle, cell);
+        if bundle.found.len() > finds {
+            for group in &mut bundle.groups[..=depth] {
+                group.stop(&bundle.states);
+            }
+        }
+        evaluations
     }
 
     /// Lets the rays in `bundle.met` march where the part of `cell` holds.
@@ -325,8 +412,7 @@ impl<'f> Trip<'_, 'f, '_> {
         let place = self.places.len() as u32;
         let finds = bundle.found.len();
         for end in &*self.ends {
-            let ray = end.id as usize;
-            let state = &mut bundle.states[ray];
+            let state = &mut bundle.states[end.id as usize];
             state.steps = end.steps;
             if is_soft {
                 (state.factor, state.before) = (end.factor, end.before);
@@ -337,7 +423,6 @@ impl<'f> Trip<'_, 'f, '_> {
             (state.fate, state.t, state.value) = (end.fate, end.t, end.value);
             state.find = bundle.found.len() as u32;
             bundle.found.push(Found { ray: end.id, place });
-            bundle.far[ray] = if self.quest == Quest::First { end.t } else { f32::NEG_INFINITY };
         }
         if bundle.found.len() > finds {
             self.places.push(cell);
@@ -347,43 +432,54 @@ impl<'f> Trip<'_, 'f, '_> {
 }
 
 impl Shaft {
-    fn around(starts: &[Start]) -> Self {
-        const EMPTY: [f32; 2] = [f32::INFINITY, f32::NEG_INFINITY];
-        let mut shaft = Self { origin: [EMPTY; 3], direction: [EMPTY; 3], near: f32::INFINITY, far: f32::NEG_INFINITY };
-        let widen = |[lo, hi]: &mut [f32; 2], x: f32| (*lo, *hi) = (lo.min(x), hi.max(x));
-        for start in starts {
-            for axis in 0..3 {
-                widen(&mut shaft.origin[axis], start.origin[axis]);
-                widen(&mut shaft.direction[axis], start.direction[axis]);
-            }
-            shaft.near = shaft.near.min(start.span[0]);
-            shaft.far = shaft.far.max(start.span[1]);
+    fn around(group: &Group) -> Self {
+        Self {
+            origin: group.origin.each_ref().map(|numbers| bounds(numbers)),
+            inverse: group.inverse.each_ref().map(|numbers| bounds(numbers)),
+            near: bounds(&group.near)[0],
+            far: bounds(&group.far)[1],
         }
-        shaft
     }
 
-    /// Whether most rays go upwards along an axis.
+    /// Whether the rays go upwards along an axis.
     fn rises(&self, axis: usize) -> bool {
-        let [lo, hi] = self.direction[axis];
-        lo + hi >= 0.0
+        self.inverse[axis][0] > 0.0
     }
 
     /// Whether a box may be met: where the times at which some ray enters and leaves the slabs of the box leave no gap.
     fn meets(&self, middle: Triple, half: Triple) -> bool {
         let (mut near, mut far) = (self.near, self.far);
         for axis in 0..3 {
-            let ([first, last], [slow, fast]) = (self.origin[axis], self.direction[axis]);
-            // Towards rising coordinates, where the direction has one sign.
-            let (lo, hi, slow, fast) = if slow > LEAST_COMPONENT {
+            let ([first, last], [slow, fast]) = (self.origin[axis], self.inverse[axis]);
+            // All rays go the same way; towards rising coordinates after mirroring.
+            let (lo, hi, least, most) = if slow > 0.0 {
                 (middle[axis] - half[axis] - last, middle[axis] + half[axis] - first, slow, fast)
-            } else if fast < -LEAST_COMPONENT {
-                (first - middle[axis] - half[axis], last - middle[axis] + half[axis], -fast, -slow)
             } else {
-                continue;
+                (first - middle[axis] - half[axis], last - middle[axis] + half[axis], -fast, -slow)
             };
-            near = near.max(lo / if lo > 0.0 { fast } else { slow });
-            far = far.min(hi / if hi > 0.0 { slow } else { fast });
+            near = near.max(lo * if lo > 0.0 { least } else { most });
+            far = far.min(hi * if hi > 0.0 { most } else { least });
         }
         near <= far + SEAM * (near.abs() + far.abs())
     }
+}
+
+/// The least and the largest of some numbers.
+fn bounds(numbers: &[f32]) -> [f32; 2] {
+    const LANES: usize = 8;
+    let (mut lo, mut hi) = ([f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
+    let mut chunks = numbers.chunks_exact(LANES);
+    let mut widen = |lane: usize, x: f32| {
+        lo[lane] = if x < lo[lane] { x } else { lo[lane] };
+        hi[lane] = if x > hi[lane] { x } else { hi[lane] };
+    };
+    for chunk in &mut chunks {
+        for lane in 0..LANES {
+            widen(lane, chunk[lane]);
+        }
+    }
+    for &x in chunks.remainder() {
+        widen(0, x);
+    }
+    [lo.into_iter().fold(f32::INFINITY, f32::min), hi.into_iter().fold(f32::NEG_INFINITY, f32::max)]
 }
