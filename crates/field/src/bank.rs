@@ -1,10 +1,13 @@
 //! Registers for batches of points, and the operations that run over them.
 
 use crate::evaluator::Points;
+use crate::formula::Binary;
+use crate::formula_kernel::{self, BinaryJob, FormulaKernels, Source, UnaryJob};
 use crate::kernel::{
     AffineJob, BATCH, Block, CombineJob, CombineKernels, ModifyJob, ModifyKernels, PrimitiveJob, WIDEST,
 };
-use crate::lower::{Listing, Op};
+use crate::lower::{Listing, Op, Operand};
+use crate::program::Program;
 use crate::simd::Level;
 use std::marker::PhantomData;
 
@@ -20,6 +23,9 @@ pub(crate) trait Number: Sized {
     fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>);
     fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>);
     fn affine(level: Level, job: &mut AffineJob<'_>);
+
+    /// The operations of formulas.
+    const FORMULA: FormulaKernels;
 
     /// The reach after an affine map of this norm.
     fn stretched(_from: &Self::Reach, _norm: f32) -> Self::Reach {
@@ -65,14 +71,15 @@ impl<N: Number> Bank<N> {
     }
 
     /// Runs the operations over the first `count` points in point register 0.
-    pub(crate) fn run(&mut self, constants: &[f32], ops: &[Op], level: Level, count: usize) {
+    pub(crate) fn run(&mut self, program: &Program, ops: &[Op], level: Level, count: usize) {
         for op in ops {
-            self.step(constants, op, level, count);
+            self.step(program, op, level, count);
         }
     }
 
     /// Runs one operation over the first `count` points.
-    pub(crate) fn step(&mut self, constants: &[f32], op: &Op, level: Level, count: usize) {
+    pub(crate) fn step(&mut self, program: &Program, op: &Op, level: Level, count: usize) {
+        let constants = &program.single[..];
         match *op {
             Op::Affine { from, to, constants: run } => {
                 let size = 3 * N::COMPONENTS;
@@ -111,6 +118,39 @@ impl<N: Number> Bank<N> {
                     for (from, out) in from.0[..count].iter().zip(&mut out.0) {
                         *out = from * factor;
                     }
+                }
+            }
+            Op::Coordinate { point, axis, at, out } => {
+                let start = (3 * point + axis) * N::COMPONENTS;
+                let from = &self.points[start..start + N::COMPONENTS];
+                let (_, out) = apart::<N>(&mut self.values, out);
+                (N::FORMULA.moved)(level, constants[at], &mut UnaryJob { from, out, count });
+            }
+            Op::Unary { op, from, out } => {
+                let (values, out) = apart::<N>(&mut self.values, out);
+                (N::FORMULA.unary)(level, op, &mut UnaryJob { from: values.at(from), out, count });
+            }
+            Op::Binary { op, a, b, out } => {
+                let (values, out) = apart::<N>(&mut self.values, out);
+                let source = |operand| match operand {
+                    Operand::Register(register) => Source::Register(values.at(register)),
+                    Operand::Constant(constant) => Source::Constant(program.double[constant]),
+                };
+                (N::FORMULA.binary)(level, op, &mut BinaryJob { a: source(a), b: source(b), out, count });
+            }
+            Op::Power { from, exponent, out } => {
+                let (values, out) = apart::<N>(&mut self.values, out);
+                (N::FORMULA.power)(level, exponent, &mut UnaryJob { from: values.at(from), out, count });
+            }
+            Op::Fill { constant, out } => {
+                let (_, out) = apart::<N>(&mut self.values, out);
+                let (number, zero) = (Source::Constant(program.double[constant]), Source::Constant(0.0));
+                (N::FORMULA.binary)(level, Binary::Add, &mut BinaryJob { a: number, b: zero, out, count });
+            }
+            Op::Copy { from, out } => {
+                let (values, out) = apart::<N>(&mut self.values, out);
+                for (from, out) in values.at(from).iter().zip(out) {
+                    out.0[..count].copy_from_slice(&from.0[..count]);
                 }
             }
         }
@@ -153,9 +193,10 @@ pub(crate) struct Values;
 pub(crate) struct Gradients;
 
 macro_rules! at_points {
-    ($Number:ident, $components:literal, $kernel:ident, $affine:ident) => {
+    ($Number:ident, $components:literal, $kernel:ident, $affine:ident, $FORMULA:ident) => {
         impl Number for $Number {
             const COMPONENTS: usize = $components;
+            const FORMULA: FormulaKernels = formula_kernel::$FORMULA;
             type Reach = ();
 
             fn primitive(level: Level, mut call: PrimitiveCall<'_, Self>) {
@@ -191,8 +232,8 @@ macro_rules! at_points {
     };
 }
 
-at_points!(Values, 1, values, affine_values);
-at_points!(Gradients, 4, gradients, affine_gradients);
+at_points!(Values, 1, values, affine_values, VALUES);
+at_points!(Gradients, 4, gradients, affine_gradients, GRADIENTS);
 
 /// Enclosures of values over boxes: lower and upper ends.
 #[derive(Default)]
@@ -232,9 +273,10 @@ const WIDER: f32 = 1.0 + 8.0 * f32::EPSILON;
 const ROUNDING: f32 = 16.0 * f32::EPSILON;
 
 macro_rules! over_boxes {
-    ($Number:ident, $components:literal, $kernel:ident, $affine:ident) => {
+    ($Number:ident, $components:literal, $kernel:ident, $affine:ident, $FORMULA:ident) => {
         impl Number for $Number {
             const COMPONENTS: usize = $components;
+            const FORMULA: FormulaKernels = formula_kernel::$FORMULA;
             type Reach = Reach;
 
             fn primitive(level: Level, call: PrimitiveCall<'_, Self>) {
@@ -256,8 +298,8 @@ macro_rules! over_boxes {
     };
 }
 
-over_boxes!(Ranges, 2, ranges, affine_ranges);
-over_boxes!(Jets, 4, jets, affine_jets);
+over_boxes!(Ranges, 2, ranges, affine_ranges, RANGES);
+over_boxes!(Jets, 4, jets, affine_jets, JETS);
 
 /// A primitive over boxes: its value in the middle, and as much to either side as its largest slope allows.
 ///

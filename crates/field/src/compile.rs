@@ -5,6 +5,7 @@
 //! in `f64`.
 
 use crate::field::{Field, MaterialId, Node};
+use crate::formula::{Formula, Term};
 use crate::kernel::AFFINE_CONSTANTS;
 use crate::operation::{Code, Derive, Link, Region, Run, Step, StepId, Steps};
 use crate::shape::{CombineTable, Kind};
@@ -175,6 +176,34 @@ impl Compiler {
                 self.emit(&tree.children[0], space, material, before)
             }
         }
+    }
+
+    /// Emits the terms of a formula in the coordinates of `space`.
+    fn formula(&mut self, formula: &Formula, space: &Space) -> StepId {
+        let space = if space.chain.iter().all(Link::is_translation) { space.clone() } else { self.materialise(space) };
+        let (point, at) = (space.point, self.offset(&space));
+        let literal = |term: &Term| match term {
+            Term::Literal(number) => Some(*number),
+            _ => None,
+        };
+        let numbers: Vec<f64> = formula.terms().iter().filter_map(literal).collect();
+        let table = self.derived(numbers.len(), |out| Derive::Literals { numbers, out });
+        let mut constant = table.start() as u32;
+        let mut steps: Vec<StepId> = Vec::with_capacity(formula.terms().len());
+        for term in formula.terms() {
+            let step = match *term {
+                Term::Input(axis) => Step::Coordinate { point, axis: axis as u8, at },
+                Term::Literal(_) => {
+                    constant += 1;
+                    Step::Literal { constant: constant - 1 }
+                }
+                Term::Unary(op, a) => Step::Unary { op, from: steps[a.index()] },
+                Term::Binary(op, a, b) => Step::Binary { op, a: steps[a.index()], b: steps[b.index()] },
+                Term::Power(a, exponent) => Step::Power { from: steps[a.index()], exponent },
+            };
+            steps.push(self.push(step));
+        }
+        *steps.last().expect("a formula has a term")
     }
 
     /// Applies the pending maps of `space` to its point.

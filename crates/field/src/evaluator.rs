@@ -5,7 +5,7 @@
 
 use crate::bank::{Bank, Gradients, Values};
 use crate::kernel::{BATCH, Block, CombineJob};
-use crate::operation::{Step, StepId};
+use crate::operation::{NO_REGION, Step, StepId};
 use crate::program::{Part, Program};
 use crate::simd::{self, Level};
 use std::ops::Range;
@@ -114,7 +114,7 @@ impl<'p> Evaluator<'p> {
         self.values.prepare(listing);
         for batch in batches(out.len()) {
             let count = self.values.load(points.slice(batch.clone()));
-            self.values.run(&self.program.single, &listing.ops, self.level, count);
+            self.values.run(self.program, &listing.ops, self.level, count);
             let out = &mut out[batch];
             out.copy_from_slice(&self.values.value(result)[0].0[..out.len()]);
         }
@@ -143,7 +143,7 @@ impl<'p> Evaluator<'p> {
         let [gx, gy, gz] = gradient;
         for batch in batches(values.len()) {
             let count = self.gradients.load(points.slice(batch.clone()));
-            self.gradients.run(&self.program.single, &listing.ops, self.level, count);
+            self.gradients.run(self.program, &listing.ops, self.level, count);
             let from = self.gradients.value(result);
             for (out, from) in [&mut *values, &mut *gx, &mut *gy, &mut *gz].into_iter().zip(from) {
                 let out = &mut out[batch.clone()];
@@ -177,7 +177,7 @@ impl<'p> Evaluator<'p> {
         let mut share = Block::default();
         for batch in batches(out.count) {
             let count = self.kept.load(points.slice(batch.clone()));
-            self.kept.run(&self.program.single, &listing.ops, self.level, count);
+            self.kept.run(self.program, &listing.ops, self.level, count);
             self.weights[result].0.fill(1.0);
             for (index, step) in part.steps.list.iter().enumerate().rev() {
                 let own = listing.place[index] as usize;
@@ -200,7 +200,7 @@ impl<'p> Evaluator<'p> {
                             self.weights[b].0[lane] = weight * share.0[lane];
                         }
                     }
-                    Step::Primitive { region, .. } => {
+                    Step::Primitive { region, .. } | Step::Surface { region, .. } if region != NO_REGION => {
                         let column = regions.binary_search(&region).expect("a part lists all its regions");
                         let start = column * out.count;
                         let to = &mut out.shares[start + batch.start..start + batch.end];
@@ -212,7 +212,8 @@ impl<'p> Evaluator<'p> {
                         let weight = self.weights[own].clone();
                         self.weights[place(from)] = weight;
                     }
-                    Step::Point | Step::Affine { .. } => {}
+                    // What a formula is made of belongs to the formula as a whole.
+                    _ => {}
                 }
             }
         }

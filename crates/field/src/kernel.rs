@@ -30,15 +30,23 @@ impl Default for Block {
 }
 
 /// A lane type that is stored as a fixed number of blocks.
-trait Packed<I: Simd>: Scalar<Table = [f32]> {
+pub(crate) trait Packed<I: Simd>: Scalar<Table = [f32]> {
     const COMPONENTS: usize;
 
     fn load(token: I, from: &[Block], lane: usize) -> Self;
     fn store(self, to: &mut [Block], lane: usize);
+
+    /// The same number in all lanes.
+    fn splat(token: I, number: f64) -> Self;
 }
 
 impl<I: Simd> Packed<I> for Lanes<I> {
     const COMPONENTS: usize = 1;
+
+    #[inline(always)]
+    fn splat(token: I, number: f64) -> Self {
+        Lanes::splat(token, number as f32)
+    }
 
     #[inline(always)]
     fn load(token: I, from: &[Block], lane: usize) -> Self {
@@ -53,6 +61,11 @@ impl<I: Simd> Packed<I> for Lanes<I> {
 
 impl<I: Simd> Packed<I> for Dual<Lanes<I>> {
     const COMPONENTS: usize = 4;
+
+    #[inline(always)]
+    fn splat(token: I, number: f64) -> Self {
+        Dual::independent(Lanes::splat(token, number as f32))
+    }
 
     #[inline(always)]
     fn load(token: I, from: &[Block], lane: usize) -> Self {
@@ -80,6 +93,11 @@ impl<I: Simd> Packed<I> for Intervals<I> {
     const COMPONENTS: usize = 2;
 
     #[inline(always)]
+    fn splat(token: I, number: f64) -> Self {
+        Intervals::point(Lanes::splat(token, 0.0)).lift(number)
+    }
+
+    #[inline(always)]
     fn load(token: I, from: &[Block], lane: usize) -> Self {
         let [lo, hi] = [&from[0], &from[1]];
         Self {
@@ -97,6 +115,11 @@ impl<I: Simd> Packed<I> for Intervals<I> {
 
 impl<I: Simd> Packed<I> for Dual<Intervals<I>, 1> {
     const COMPONENTS: usize = 4;
+
+    #[inline(always)]
+    fn splat(token: I, number: f64) -> Self {
+        Dual::independent(Intervals::splat(token, number))
+    }
 
     #[inline(always)]
     fn load(token: I, from: &[Block], lane: usize) -> Self {

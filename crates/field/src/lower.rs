@@ -3,6 +3,7 @@
 //! Two banks of registers, one for points and one for values; a register is used again as soon as nothing reads it any
 //! more. A primitive that only enters a minimum is folded into it in one kernel.
 
+use crate::formula::{Binary, Unary};
 use crate::operation::{Run, Step, StepId, Steps};
 use crate::shape::{CombineTable, ModifyTable, PrimitiveTable};
 
@@ -41,11 +42,33 @@ pub(crate) enum Op {
     Modify { table: &'static ModifyTable, from: usize, out: usize, constants: Run },
     /// `values[out] = factor * values[from]`.
     Scale { from: usize, out: usize, factor: usize },
+    /// `values[out] = points[point][axis] - at`.
+    Coordinate { point: usize, axis: usize, at: usize, out: usize },
+    /// `values[out] = op(values[from])`.
+    Unary { op: Unary, from: usize, out: usize },
+    /// `values[out] = op(a, b)`.
+    Binary { op: Binary, a: Operand, b: Operand, out: usize },
+    /// `values[out] = values[from]^exponent`.
+    Power { from: usize, exponent: i32, out: usize },
+    /// `values[out]` is a constant everywhere.
+    Fill { constant: usize, out: usize },
+    /// `values[out] = values[from]`.
+    Copy { from: usize, out: usize },
+}
+
+/// What an operation on numbers reads.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Operand {
+    /// A register of values.
+    Register(usize),
+    /// An entry of the table of constants.
+    Constant(usize),
 }
 
 impl Listing {
     /// The operations for the result of some steps.
     pub(crate) fn of(steps: &Steps) -> Self {
+        let steps = &without_surfaces(steps);
         Self::with_fates(steps, &Fate::of_all(steps, true))
     }
 
@@ -89,6 +112,21 @@ impl Listing {
                     Some(Op::Modify { table, from: place(from), out, constants })
                 }
                 Step::Scale { from, factor } => Some(Op::Scale { from: place(from), out, factor: factor as usize }),
+                Step::Coordinate { point, axis, at } => {
+                    let axis = usize::from(axis);
+                    Some(Op::Coordinate { point: place(point), axis, at: at.start() + axis, out })
+                }
+                Step::Literal { constant } => Some(Op::Fill { constant: constant as usize, out }),
+                Step::Unary { op, from } => Some(Op::Unary { op, from: place(from), out }),
+                Step::Binary { op, a, b } => {
+                    let operand = |id: StepId| match (fate[id.index()].is_folded, steps.list[id.index()]) {
+                        (true, Step::Literal { constant }) => Operand::Constant(constant as usize),
+                        _ => Operand::Register(place(id)),
+                    };
+                    Some(Op::Binary { op, a: operand(a), b: operand(b), out })
+                }
+                Step::Power { from, exponent } => Some(Op::Power { from: place(from), exponent, out }),
+                Step::Surface { from, .. } => Some(Op::Copy { from: place(from), out }),
             });
             let mut release = |id: StepId| {
                 if fate[id.index()].last_use == index as u32 {
@@ -97,6 +135,7 @@ impl Listing {
             };
             step.operands(|id| match steps.list[id.index()] {
                 Step::Primitive { point, .. } if fate[id.index()].is_folded => release(point),
+                Step::Literal { .. } if fate[id.index()].is_folded => {}
                 _ => release(id),
             });
         }
@@ -105,12 +144,28 @@ impl Listing {
     }
 }
 
+/// The steps without those that only say whose a value is.
+fn without_surfaces(steps: &Steps) -> Steps {
+    let mut renamed = Vec::with_capacity(steps.list.len());
+    let mut list = Vec::with_capacity(steps.list.len());
+    for &step in &steps.list {
+        renamed.push(match step {
+            Step::Surface { from, .. } => renamed[from.index()],
+            step => {
+                list.push(step.with_operands(|id| renamed[id.index()]));
+                StepId(list.len() as u32 - 1)
+            }
+        });
+    }
+    Steps { list, result: steps.result.map(|id| renamed[id.index()]) }
+}
+
 /// What becomes of a step.
 #[derive(Clone, Copy, Default)]
 struct Fate {
     /// The last step that reads it; its own place if none does.
     last_use: u32,
-    /// Whether it is a primitive that is computed where its minimum is.
+    /// Whether it is computed where it is read: a primitive in a minimum, or a constant operand.
     is_folded: bool,
 }
 
@@ -132,9 +187,21 @@ impl Fate {
                 fates[b.index()].is_folded = true;
                 fates[point.index()].last_use = index;
             }
+            if let (true, Step::Literal { .. }) = (fold, step) {
+                // Until something other than a function of two numbers reads it.
+                fates[index as usize].is_folded = true;
+            }
+            if !matches!(step, Step::Binary { .. }) {
+                step.operands(|id| {
+                    if let Step::Literal { .. } = steps.list[id.index()] {
+                        fates[id.index()].is_folded = false;
+                    }
+                });
+            }
         }
         if let Some(result) = steps.result {
             fates[result.index()].last_use = u32::MAX;
+            fates[result.index()].is_folded = false;
         }
         fates
     }

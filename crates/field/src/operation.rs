@@ -2,6 +2,7 @@
 
 use crate::analysis::axis_map;
 use crate::field::MaterialId;
+use crate::formula::{Binary, Unary};
 use crate::shape::{CombineTable, ModifyTable, PlaceTable, PrimitiveTable};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeSet;
@@ -82,18 +83,40 @@ pub(crate) enum Step {
     Modify { table: &'static ModifyTable, from: StepId, constants: Run },
     /// The value `factor * from`.
     Scale { from: StepId, factor: u32 },
+    /// A coordinate of the point `p - at`.
+    Coordinate { point: StepId, axis: u8, at: Run },
+    /// A constant.
+    Literal { constant: u32 },
+    /// A function of one value.
+    Unary { op: Unary, from: StepId },
+    /// A function of two values.
+    Binary { op: Binary, a: StepId, b: StepId },
+    /// An integer power.
+    Power { from: StepId, exponent: i32 },
+    /// The value of a formula as a whole, which belongs to a region.
+    Surface { from: StepId, region: u32 },
 }
 
+/// The region of what belongs to none, since it only bounds something that does.
+pub(crate) const NO_REGION: u32 = u32::MAX;
+
 impl Step {
-    /// Calls `visit` with each step that this one reads.
+    /// Calls `visit` once with each step that this one reads.
     pub(crate) fn operands(&self, mut visit: impl FnMut(StepId)) {
         match *self {
-            Self::Point => {}
-            Self::Affine { from, .. } | Self::Modify { from, .. } | Self::Scale { from, .. } => visit(from),
-            Self::Primitive { point, .. } => visit(point),
-            Self::Combine { a, b, .. } => {
+            Self::Point | Self::Literal { .. } => {}
+            Self::Affine { from, .. }
+            | Self::Modify { from, .. }
+            | Self::Scale { from, .. }
+            | Self::Unary { from, .. }
+            | Self::Power { from, .. }
+            | Self::Surface { from, .. } => visit(from),
+            Self::Primitive { point, .. } | Self::Coordinate { point, .. } => visit(point),
+            Self::Combine { a, b, .. } | Self::Binary { a, b, .. } => {
                 visit(a);
-                visit(b);
+                if a != b {
+                    visit(b);
+                }
             }
         }
     }
@@ -101,10 +124,15 @@ impl Step {
     /// The step with each operand replaced.
     pub(crate) fn with_operands(mut self, map: impl Fn(StepId) -> StepId) -> Self {
         match &mut self {
-            Self::Point => {}
-            Self::Affine { from, .. } | Self::Modify { from, .. } | Self::Scale { from, .. } => *from = map(*from),
-            Self::Primitive { point, .. } => *point = map(*point),
-            Self::Combine { a, b, .. } => {
+            Self::Point | Self::Literal { .. } => {}
+            Self::Affine { from, .. }
+            | Self::Modify { from, .. }
+            | Self::Scale { from, .. }
+            | Self::Unary { from, .. }
+            | Self::Power { from, .. }
+            | Self::Surface { from, .. } => *from = map(*from),
+            Self::Primitive { point, .. } | Self::Coordinate { point, .. } => *point = map(*point),
+            Self::Combine { a, b, .. } | Self::Binary { a, b, .. } => {
                 *a = map(*a);
                 *b = map(*b);
             }
@@ -135,6 +163,8 @@ pub(crate) enum Derive {
     Affine { chain: Vec<Link>, from_root: bool, out: Range<usize> },
     /// The same for a chain of translations: what to subtract.
     Offset { chain: Vec<Link>, from_root: bool, out: Range<usize> },
+    /// Numbers that are no arguments: those of a formula's text.
+    Literals { numbers: Vec<f64>, out: Range<usize> },
     /// The largest slope of a primitive; infinite if it is not known.
     Slope { table: &'static PrimitiveTable, args: Range<usize>, out: usize },
     /// A placing node's factor.

@@ -8,7 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Graph, Slots};
 use crate::kernel::{CombineFn, CombineKernels, Dual2, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels, affine};
 use crate::lower::Listing;
-use crate::operation::{Code, Derive, Run, Step, Steps, inverse_of};
+use crate::operation::{Code, Derive, NO_REGION, Run, Step, Steps, inverse_of};
 use crate::scalar::{Constants, Dual, Interval, Scalar};
 use crate::vector::{Vec3, spectral_norm};
 use glam::DVec3;
@@ -192,6 +192,19 @@ impl Program {
                     let factor = S::with_table(&self.double, factor, |table| like.constant(table, 0));
                     value = values[from.index()] * factor;
                 }
+                Step::Coordinate { point, axis, at } => {
+                    let p = points[point.index()];
+                    let at = S::with_table(&self.double, at, |table| like.constant(table, usize::from(axis)));
+                    value = [p.x, p.y, p.z][usize::from(axis)] - at;
+                }
+                Step::Literal { constant } => {
+                    let run = Run::from(constant as usize..constant as usize + 1);
+                    value = S::with_table(&self.double, run, |table| like.constant(table, 0));
+                }
+                Step::Unary { op, from } => value = op.apply(values[from.index()]),
+                Step::Binary { op, a, b } => value = op.apply(values[a.index()], values[b.index()]),
+                Step::Power { from, exponent } => value = values[from.index()].powi(exponent),
+                Step::Surface { from, .. } => value = values[from.index()],
             }
             points.push(point);
             values.push(value);
@@ -245,11 +258,11 @@ impl Part {
         self.kept.get_or_init(|| Listing::keeping_all(&self.steps))
     }
 
-    /// The regions of all its primitives, in order.
+    /// The regions of all its surfaces, in order.
     pub(crate) fn regions(&self) -> &[u32] {
         self.regions.get_or_init(|| {
             let region = |step: &Step| match *step {
-                Step::Primitive { region, .. } => Some(region),
+                Step::Primitive { region, .. } | Step::Surface { region, .. } if region != NO_REGION => Some(region),
                 _ => None,
             };
             let mut regions: Vec<u32> = self.steps.list.iter().filter_map(region).collect();
@@ -288,6 +301,7 @@ fn derive(code: &Code, values: &[f64], origin: DVec3) -> Result<Vec<f64>, BindEr
                 }
                 constants[out.clone()].copy_from_slice(&(-translation).to_array());
             }
+            Derive::Literals { numbers, out } => constants[out.clone()].copy_from_slice(numbers),
             Derive::Slope { table, args, out } => {
                 constants[*out] = (table.contract)(&values[args.clone()]).lipschitz.unwrap_or(f64::INFINITY);
             }

@@ -7,6 +7,7 @@
 //! pruning", 2025). What remains has the same values in the region, bit for bit.
 
 use crate::bank::{Bank, Ranges};
+use crate::formula::{Binary, Unary};
 use crate::kernel::WIDEST;
 use crate::operation::{Run, Step, StepId, Steps};
 use crate::program::{Part, Program};
@@ -38,8 +39,7 @@ pub(crate) struct Survey {
 #[derive(Default)]
 struct Scratch {
     settled: Vec<Settled>,
-    /// Above this a step's value does not matter any more; NaN where nothing reads the step.
-    ceiling: Vec<f32>,
+    windows: Vec<Window>,
     renamed: Vec<StepId>,
 }
 
@@ -64,7 +64,7 @@ impl Survey {
         }
         self.bank.reach[0].radius.0[..count].fill((x * x + y * y + z * z).sqrt() * (1.0 + 4.0 * f32::EPSILON));
         for (index, op) in listing.ops.iter().enumerate() {
-            self.bank.step(&program.single, op, level, count);
+            self.bank.step(program, op, level, count);
             let step = index + 1;
             if !part.steps.list[step].is_point() {
                 let [lo, hi] = self.bank.value(listing.place[step] as usize) else { unreachable!("two ends") };
@@ -92,111 +92,168 @@ impl Survey {
         let list = &part.steps.list;
         let (ends, boxes) = (&self.ends, self.boxes);
         let range = |id: StepId| ends[id.index() * boxes + place];
-        let Scratch { settled, ceiling, renamed } = &mut self.scratch;
+        let Scratch { settled, windows, renamed } = &mut self.scratch;
         settle(program, list, range, settled);
-        let dropped = mark(list, result, range, settled, ceiling);
+        let dropped = mark(list, result, range, settled, windows);
         if dropped == 0 {
             return Arc::clone(part);
         }
-        Arc::new(Part::new(rebuild(list, result, settled, ceiling, renamed)))
+        Arc::new(Part::new(rebuild(list, result, settled, windows, renamed)))
     }
 }
 
 /// What each combination comes to by the ranges of its operands.
 fn settle(program: &Program, list: &[Step], range: impl Fn(StepId) -> [f32; 2], settled: &mut Vec<Settled>) {
-    settled.clear();
-    settled.extend(list.iter().map(|step| match *step {
+    let interval = |id: StepId| {
+        let [lo, hi] = range(id);
+        (lo <= hi).then(|| Interval::new(lo.into(), hi.into()))
+    };
+    let judge = |step: &Step| match *step {
         Step::Combine { table, a, b, constants } => {
-            let ([a, above_a], [b, above_b]) = (range(a), range(b));
-            if a <= above_a && b <= above_b {
-                let interval = |lo: f32, hi: f32| Interval::new(lo.into(), hi.into());
-                (table.settle)(interval(a, above_a), interval(b, above_b), &program.double[constants.range()])
-            } else {
-                Settled::Open
-            }
+            Some((table.settle)(interval(a)?, interval(b)?, &program.double[constants.range()]))
         }
-        _ => Settled::Open,
-    }));
+        Step::Binary { op: Binary::Min, a, b } => Some(Settled::lesser(interval(a)?, interval(b)?, 0.0)),
+        Step::Binary { op: Binary::Max, a, b } => Some(Settled::lesser(-interval(a)?, -interval(b)?, 0.0)),
+        Step::Unary { op: Unary::Abs, from } => match range(from) {
+            [lo, _] if lo > 0.0 => Some(Settled::First),
+            [_, hi] if hi < 0.0 => Some(Settled::NotSecond),
+            _ => None,
+        },
+        _ => None,
+    };
+    settled.clear();
+    settled.extend(list.iter().map(|step| judge(step).unwrap_or(Settled::Open)));
 }
 
-/// Finds what the result still depends on, and settles minima of which an operand is too large to matter in the end. Returns
-/// how many steps don't matter.
+/// The operands of a step that picks one of two values, and whether it picks the lesser or the greater.
+fn choice(step: &Step) -> Option<(StepId, StepId, Choice)> {
+    match *step {
+        Step::Combine { table, a, b, .. } if table.is_minimum => Some((a, b, Choice::Lesser)),
+        Step::Binary { op: Binary::Min, a, b } => Some((a, b, Choice::Lesser)),
+        Step::Binary { op: Binary::Max, a, b } => Some((a, b, Choice::Greater)),
+        _ => None,
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Choice {
+    Lesser,
+    Greater,
+}
+
+/// The values of a step that still make a difference to those that read it.
+#[derive(Clone, Copy)]
+struct Window {
+    is_read: bool,
+    floor: f32,
+    ceiling: f32,
+}
+
+impl Window {
+    const UNREAD: Self = Self { is_read: false, floor: f32::INFINITY, ceiling: f32::NEG_INFINITY };
+    const ALL: Self = Self { is_read: true, floor: f32::NEG_INFINITY, ceiling: f32::INFINITY };
+
+    /// The window for all who read the step.
+    fn widen(&mut self, other: Self) {
+        self.is_read |= other.is_read;
+        self.floor = self.floor.min(other.floor);
+        self.ceiling = self.ceiling.max(other.ceiling);
+    }
+}
+
+/// Finds what the result still depends on, and settles choices of which an operand is too large or too small to matter in
+/// the end. Returns how many steps don't matter.
 ///
 /// A chain of minima is settled from its end: an operand above the largest value that the whole chain can have is not
-/// needed, even if it is not above the operands before it.
+/// needed, even if it is not above the operands before it. Chains of maxima likewise.
 fn mark(
     list: &[Step],
     result: StepId,
     range: impl Fn(StepId) -> [f32; 2],
     settled: &mut [Settled],
-    ceiling: &mut Vec<f32>,
+    windows: &mut Vec<Window>,
 ) -> usize {
-    ceiling.clear();
-    ceiling.resize(list.len(), f32::NAN);
-    ceiling[StepId::POINT.index()] = f32::INFINITY;
-    ceiling[result.index()] = f32::INFINITY;
+    windows.clear();
+    windows.resize(list.len(), Window::UNREAD);
+    windows[StepId::POINT.index()] = Window::ALL;
+    windows[result.index()] = Window::ALL;
     let mut needed = 0;
     for index in (0..list.len()).rev() {
-        let own = ceiling[index];
-        if own.is_nan() {
+        let own = windows[index];
+        if !own.is_read {
             continue;
         }
         needed += 1;
-        match list[index] {
-            Step::Combine { table, a, b, .. } => {
-                let below = if table.is_minimum { own.min(range(StepId(index as u32))[1]) } else { f32::INFINITY };
-                if table.is_minimum && settled[index] == Settled::Open {
-                    settled[index] = match (range(a)[0] > below, range(b)[0] > below) {
-                        (false, true) => Settled::First,
-                        (true, false) => Settled::Second,
-                        _ => Settled::Open,
-                    };
-                }
-                // Only an unchanged operand of a minimum inherits its ceiling.
-                let (reads_a, reads_b) = match settled[index] {
-                    Settled::Open => (true, true),
-                    Settled::First => (true, false),
-                    Settled::Second | Settled::NotSecond => (false, true),
-                };
-                needed -= usize::from(matches!(settled[index], Settled::First | Settled::Second));
-                for (reads, id) in [(reads_a, a), (reads_b, b)] {
-                    if reads {
-                        raise(&mut ceiling[id.index()], below);
-                    }
-                }
+        let step = &list[index];
+        let mut window = Window::ALL;
+        if let Some((a, b, choice)) = choice(step) {
+            let [lo, hi] = range(StepId(index as u32));
+            // Only operands of the same choice inherit the window.
+            match choice {
+                Choice::Lesser => window.ceiling = own.ceiling.min(hi),
+                Choice::Greater => window.floor = own.floor.max(lo),
             }
-            step => step.operands(|id| raise(&mut ceiling[id.index()], f32::INFINITY)),
+            if settled[index] == Settled::Open {
+                let is_outside = |id: StepId| {
+                    let [lo, hi] = range(id);
+                    lo > window.ceiling || hi < window.floor
+                };
+                settled[index] = match (is_outside(a), is_outside(b)) {
+                    (false, true) => Settled::First,
+                    (true, false) => Settled::Second,
+                    _ => Settled::Open,
+                };
+            }
+        }
+        needed -= usize::from(matches!(settled[index], Settled::First | Settled::Second));
+        match (settled[index], *step) {
+            (Settled::Open, step) => step.operands(|id| windows[id.index()].widen(window)),
+            (Settled::First, step) => {
+                windows[first(&step).index()].widen(window);
+            }
+            (Settled::Second | Settled::NotSecond, step) => {
+                windows[second(&step).index()].widen(window);
+            }
         }
     }
     list.len() - needed
 }
 
-/// The ceiling of a step is the largest one of those that read it.
-fn raise(ceiling: &mut f32, to: f32) {
-    if ceiling.is_nan() || *ceiling < to {
-        *ceiling = to;
+fn first(step: &Step) -> StepId {
+    match *step {
+        Step::Combine { a, .. } | Step::Binary { a, .. } => a,
+        Step::Unary { from, .. } => from,
+        _ => unreachable!("only choices are settled"),
+    }
+}
+
+fn second(step: &Step) -> StepId {
+    match *step {
+        Step::Combine { b, .. } | Step::Binary { b, .. } => b,
+        Step::Unary { from, .. } => from,
+        _ => unreachable!("only choices are settled"),
     }
 }
 
 /// The list of the steps that are needed.
-fn rebuild(list: &[Step], result: StepId, settled: &[Settled], ceiling: &[f32], renamed: &mut Vec<StepId>) -> Steps {
+fn rebuild(list: &[Step], result: StepId, settled: &[Settled], windows: &[Window], renamed: &mut Vec<StepId>) -> Steps {
     let Kind::Modify(complement) = &shapes::COMPLEMENT.kind else { unreachable!("complement modifies") };
     let complement: &'static ModifyTable = complement;
     renamed.clear();
     renamed.resize(list.len(), StepId::POINT);
     let mut kept = Vec::new();
     for (index, step) in list.iter().enumerate() {
-        if ceiling[index].is_nan() {
+        if !windows[index].is_read {
             continue;
         }
         let new = |id: StepId| renamed[id.index()];
         let own = match (*step, settled[index]) {
-            (Step::Combine { a, .. }, Settled::First) => Err(new(a)),
-            (Step::Combine { b, .. }, Settled::Second) => Err(new(b)),
-            (Step::Combine { b, .. }, Settled::NotSecond) => {
-                Ok(Step::Modify { table: complement, from: new(b), constants: Run::default() })
+            (step, Settled::Open) => Ok(step.with_operands(new)),
+            (step, Settled::First) => Err(new(first(&step))),
+            (step, Settled::Second) => Err(new(second(&step))),
+            (step, Settled::NotSecond) => {
+                Ok(Step::Modify { table: complement, from: new(second(&step)), constants: Run::default() })
             }
-            (step, _) => Ok(step.with_operands(new)),
         };
         renamed[index] = match own {
             Err(same) => same,

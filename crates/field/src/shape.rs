@@ -245,6 +245,19 @@ pub enum Settled {
     NotSecond,
 }
 
+impl Settled {
+    /// Which of two operands is always less than the other by more than `reach`.
+    pub fn lesser(a: Interval, b: Interval, reach: f64) -> Self {
+        if a.hi() + reach < b.lo() {
+            Self::First
+        } else if b.hi() + reach < a.lo() {
+            Self::Second
+        } else {
+            Self::Open
+        }
+    }
+}
+
 /// An affine map of space.
 pub trait Place: 'static {
     /// Description and parameters.

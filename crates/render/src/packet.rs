@@ -11,10 +11,10 @@ use freikugel_field::simd::{self, Level};
 use freikugel_field::{Cell, Cells, Evaluator, Occupancy, Splitter};
 
 /// A part with this many steps is not worth splitting further: the point and two primitives with their union.
-const SMALL_PART: usize = 4;
+const SMALL_PART: usize = 8;
 
 /// A box this many pixels wide, as seen from the camera, is not split further: fewer rays meet it than fill the lanes.
-const CELL_PIXELS: f32 = 12.0;
+const CELL_PIXELS: f32 = 24.0;
 
 /// Where a ray enters and leaves a box is known up to this part of the distances involved. Parts hold as much beyond their
 /// boxes.

@@ -1,7 +1,6 @@
 //! Intersection: the maximum. Exact inside if the operands are; outside only a bound.
 
 use super::difference::{KEEP_MATERIAL, common};
-use super::union::lesser;
 use crate::shape_prelude::*;
 
 /// See [`intersection`].
@@ -20,7 +19,7 @@ pub fn intersection<F: Into<Field>>(shapes: impl IntoIterator<Item = F>) -> Fiel
 /// Which of two operands is always greater than the other by more than `reach`. With `keep` the material of the first one
 /// stays even there where the second is greater, so that the first is still needed.
 pub(crate) fn greater(a: Interval, b: Interval, reach: f64, keep: f64) -> Settled {
-    match lesser(-a, -b, reach) {
+    match Settled::lesser(-a, -b, reach) {
         Settled::Second if keep > 0.0 => Settled::Open,
         settled => settled,
     }

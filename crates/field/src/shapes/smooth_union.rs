@@ -1,7 +1,6 @@
 //! Union with a polynomial blend. A bound.
 
 use super::polynomial;
-use super::union::lesser;
 use crate::shape_prelude::*;
 
 /// See [`smooth_union`].
@@ -47,7 +46,7 @@ impl Combine for SmoothUnion {
     }
 
     fn settle(a: Interval, b: Interval, constants: &[f64]) -> Settled {
-        lesser(a, b, constants[0])
+        Settled::lesser(a, b, constants[0])
     }
 
     #[inline(always)]

@@ -15,17 +15,6 @@ pub fn union<F: Into<Field>>(shapes: impl IntoIterator<Item = F>) -> Field {
     Field::new(&UNION, [], shapes.into_iter().map(Into::into))
 }
 
-/// Which of two operands is always less than the other by more than `reach`.
-pub(crate) fn lesser(a: Interval, b: Interval, reach: f64) -> Settled {
-    if a.hi() + reach < b.lo() {
-        Settled::First
-    } else if b.hi() + reach < a.lo() {
-        Settled::Second
-    } else {
-        Settled::Open
-    }
-}
-
 impl Combine for Union {
     const ABOUT: About = About {
         name: "union",
@@ -44,7 +33,7 @@ impl Combine for Union {
     }
 
     fn settle(a: Interval, b: Interval, _constants: &[f64]) -> Settled {
-        lesser(a, b, 0.0)
+        Settled::lesser(a, b, 0.0)
     }
 
     #[inline(always)]
