@@ -27,6 +27,7 @@ pub mod analysis;
 mod compile;
 pub mod contract;
 pub mod diagnostic;
+pub mod elementary;
 pub mod evaluator;
 pub mod expr;
 pub mod field;
