@@ -29,6 +29,7 @@ pub mod cells;
 mod compile;
 pub mod contract;
 pub mod diagnostic;
+pub mod elementary;
 pub mod evaluator;
 pub mod expr;
 pub mod field;

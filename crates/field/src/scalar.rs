@@ -19,6 +19,7 @@ mod real;
 pub use dual::Dual;
 pub use interval::{Interval, Trilean};
 pub use intervals::{Intervals, LaneTrilean};
+pub(crate) use lanes::WIDEST;
 pub use lanes::{LaneMask, Lanes};
 
 /// The outcome of a comparison, one truth value for each lane.

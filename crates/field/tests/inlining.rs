@@ -4,6 +4,7 @@
 mod common;
 
 use common::{Random, call};
+use freikugel_field::elementary::FUNCTIONS;
 use freikugel_field::kernel::{BATCH, Block, CombineJob, ModifyJob, PrimitiveJob};
 use freikugel_field::simd::{self, Level};
 use freikugel_field::{Evaluator, Kind, Points, Shape, Structure, shapes};
@@ -92,6 +93,17 @@ fn affine() -> Work {
     })
 }
 
+/// The elementary functions by themselves.
+fn functions() -> impl Iterator<Item = (String, Work)> {
+    FUNCTIONS.iter().map(|function| {
+        let mut random = Random::new(5);
+        let mut numbers = || (0..BATCH).map(|_| random.range(0.0, 1.0) as f32).collect::<Vec<f32>>();
+        let (a, b, mut out) = (numbers(), numbers(), [0.0; BATCH]);
+        let work: Work = Box::new(move |level, count| function.apply(level, &a, &b, &mut out[..count]));
+        (format!("function {}", function.name), work)
+    })
+}
+
 #[test]
 fn every_kernel_gains_from_wider_vectors() {
     let levels = simd::available();
@@ -103,7 +115,7 @@ fn every_kernel_gains_from_wider_vectors() {
         kernels(shape).into_iter().map(|(kind, work)| (format!("{} {kind}", shape.about.name), work))
     });
     let mut failures = Vec::new();
-    for (name, mut work) in of_shapes.chain([("affine maps".to_owned(), affine())]) {
+    for (name, mut work) in of_shapes.chain(functions()).chain([("affine maps".to_owned(), affine())]) {
         let mut gain: f64 = 0.0;
         for _ in 0..TRIES {
             // What a call costs without any points is the same on both; for the cheapest kernels it is half of all.

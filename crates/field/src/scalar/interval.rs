@@ -100,8 +100,12 @@ impl Interval {
 }
 
 /// How many numbers the ends of elementary functions are moved outward. The errors of `libm` are below one unit in the last
-/// place; next to a power of two a unit is two numbers.
-const LIBM_ULPS: u32 = 2;
+/// place (see the module of `f64`), and next to a power of two a unit is two numbers. Twice that, so that the results
+/// computed between the ends lie inside, too.
+const STEPS: u32 = 4;
+
+/// The same for the angle of a vector, whose error is below one unit and a half.
+const ANGLE_STEPS: u32 = 6;
 
 /// A little less than π and 2π, by more than the rounding error of a width.
 const LESS_THAN_PI: f64 = PI - 4e-15;
@@ -110,11 +114,11 @@ const LESS_THAN_TWO_PI: f64 = TAU - 8e-15;
 impl Interval {
     /// What an increasing function makes of the ends, widened by the error of `libm`.
     fn increasing(self, f: impl Fn(f64) -> f64) -> Self {
-        Self::hull_of_libm([f(self.lo), f(self.hi)])
+        Self::hull_of_libm([f(self.lo), f(self.hi)], STEPS)
     }
 
     /// The hull of results of `libm`, widened by their errors.
-    fn hull_of_libm<const N: usize>(values: [f64; N]) -> Self {
+    fn hull_of_libm<const N: usize>(values: [f64; N], steps: u32) -> Self {
         if values.iter().any(|v| v.is_nan()) {
             return Self::ENTIRE;
         }
@@ -122,7 +126,7 @@ impl Interval {
             lo: values.into_iter().fold(f64::INFINITY, f64::min),
             hi: values.into_iter().fold(f64::NEG_INFINITY, f64::max),
         };
-        (0..LIBM_ULPS).fold(hull, |wide, _| Self::outward(wide.lo, wide.hi))
+        (0..steps).fold(hull, |wide, _| Self::outward(wide.lo, wide.hi))
     }
 
     /// `self`, an enclosure of numbers from `[lo, hi]`, without what lies outside.
@@ -142,7 +146,7 @@ impl Interval {
         // Not true for infinite and NaN widths.
         let short = width < LESS_THAN_TWO_PI;
         let [rises_first, rises_last] = slopes.map(|slope| slope > 0.0);
-        let ends = Self::hull_of_libm(values);
+        let ends = Self::hull_of_libm(values, STEPS);
         let range = match (rises_first, rises_last) {
             _ if !short => Self::ENTIRE,
             (true, false) => Self { hi: 1.0, ..ends },
@@ -158,6 +162,7 @@ impl Interval {
     fn power(x: f64, n: u32) -> Self {
         match repeated_squaring(Self::point(x.abs()), n) {
             None => Self::point(1.0),
+            Some(_) if x == 0.0 => Self::point(0.0),
             Some(power) if x < 0.0 => -power.within(0.0, f64::INFINITY),
             Some(power) => power.within(0.0, f64::INFINITY),
         }
@@ -179,22 +184,24 @@ impl Interval {
     fn pow_of_absolute(self, exponent: Self) -> Self {
         // Without the sign of a zero, whose odd negative powers would have it.
         let ([a, b], [m, n]) = ([self.lo + 0.0, self.hi + 0.0], [exponent.lo, exponent.hi]);
-        Self::hull_of_libm([libm::pow(a, m), libm::pow(a, n), libm::pow(b, m), libm::pow(b, n)])
+        Self::hull_of_libm([libm::pow(a, m), libm::pow(a, n), libm::pow(b, m), libm::pow(b, n)], STEPS)
             .within(0.0, f64::INFINITY)
     }
 
-    /// The powers of a base that is not positive: only those with integer exponents.
+    /// The powers of a base that is not positive, with those exponents that are integers: positive ones with even, negative
+    /// ones with odd exponents.
     fn pow_of_negative(self, exponent: Self) -> Option<Self> {
-        let integers = Self { lo: exponent.lo.ceil(), hi: exponent.hi.floor() };
-        if integers.lo > integers.hi {
-            return None;
+        let (first, last) = (exponent.lo.ceil(), exponent.hi.floor());
+        let of_parity = |odd: bool| {
+            let is_other = |n: f64| (n % 2.0 != 0.0) != odd;
+            let lo = if is_other(first) { first + 1.0 } else { first };
+            let hi = if is_other(last) { last - 1.0 } else { last };
+            (lo <= hi).then(|| (-self).pow_of_absolute(Self { lo, hi }))
+        };
+        match (of_parity(false), of_parity(true).map(|power| -power)) {
+            (Some(even), Some(odd)) => Some(even.hull(odd)),
+            (even, odd) => even.or(odd),
         }
-        let power = (-self).pow_of_absolute(integers);
-        Some(match integers.lo % 2.0 {
-            _ if integers.lo < integers.hi => power.hull(-power),
-            0.0 => power,
-            _ => -power,
-        })
     }
 }
 
@@ -367,7 +374,7 @@ impl Scalar for Interval {
     }
 
     fn acos(self) -> Self {
-        let decreasing = |part: Self| Self::hull_of_libm([libm::acos(part.lo), libm::acos(part.hi)]);
+        let decreasing = |part: Self| Self::hull_of_libm([libm::acos(part.lo), libm::acos(part.hi)], STEPS);
         self.part(-1.0, 1.0).map_or(Self::ENTIRE, |part| decreasing(part).within(0.0, PI.next_up()))
     }
 
@@ -385,7 +392,7 @@ impl Scalar for Interval {
         // Elsewhere it is extreme in corners. Zeros without their signs, which would mean the other side of the jump.
         let ([y, y_last], [x, x_last]) = ([self.lo + 0.0, self.hi + 0.0], [x.lo + 0.0, x.hi + 0.0]);
         let corners = [libm::atan2(y, x), libm::atan2(y, x_last), libm::atan2(y_last, x), libm::atan2(y_last, x_last)];
-        Self::hull_of_libm(corners).within(-limit, limit)
+        Self::hull_of_libm(corners, ANGLE_STEPS).within(-limit, limit)
     }
 
     fn exp(self) -> Self {
@@ -397,7 +404,10 @@ impl Scalar for Interval {
     }
 
     fn pow(self, exponent: Self) -> Self {
-        let of_positive = self.part(0.0, f64::INFINITY).map(|base| base.pow_of_absolute(exponent));
+        // Negative powers of 0 are not numbers.
+        let nothing_but_a_pole = self.hi == 0.0 && exponent.hi < 0.0;
+        let positive = if nothing_but_a_pole { None } else { self.part(0.0, f64::INFINITY) };
+        let of_positive = positive.map(|base| base.pow_of_absolute(exponent));
         let negative = if self.lo < 0.0 { self.part(f64::NEG_INFINITY, 0.0) } else { None };
         let of_negative = negative.and_then(|base| base.pow_of_negative(exponent));
         match (of_positive, of_negative) {

@@ -2,10 +2,30 @@
 //!
 //! No fused multiply-add and no approximate reciprocals, and min and max are those selects that every x86 level has as
 //! one instruction (the second operand wins on ties and NaN): results are the same bits on SSE2, AVX2 and AVX-512.
+//!
+//! The elementary functions are computed without tables, branches or calls, but for angles beyond 524 288, which go to
+//! `libm` lane by lane. [`crate::elementary`] states their errors. Integer powers are multiplied out: their error grows by
+//! up to a unit in the last place with each factor.
 
 use super::Scalar;
 use fearless_simd::{ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdMask};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+mod exponential;
+mod trigonometric;
+
+/// No instruction set has more lanes.
+pub(crate) const WIDEST: usize = 16;
+
+/// The polynomial with these coefficients, the one of the highest power first.
+#[inline(always)]
+fn polynomial<I: Simd, V: SimdFloat<I>, const N: usize>(x: V, coefficients: [V::Element; N]) -> V {
+    let mut sum = x * coefficients[0] + coefficients[1];
+    for &coefficient in &coefficients[2..] {
+        sum = sum * x + coefficient;
+    }
+    sum
+}
 
 /// One native-width vector of `f32` on the instruction set `I`.
 #[derive(Clone, Copy, Debug)]
@@ -29,16 +49,6 @@ impl<I: Simd> Lanes<I> {
     #[inline(always)]
     pub fn store(self, to: &mut [f32]) {
         self.0.store_slice(to);
-    }
-
-    /// `f` of each lane by itself, in double precision.
-    #[inline(always)]
-    fn each(self, f: impl Fn(f64) -> f64) -> Self {
-        Self(I::f32s::from_fn(
-            self.0.token(),
-            #[inline(always)]
-            |lane| f(self.0[lane].into()) as f32,
-        ))
     }
 
     /// Which lanes are NaN.
@@ -167,64 +177,61 @@ impl<I: Simd> Scalar for Lanes<I> {
 
     #[inline(always)]
     fn floor(self) -> Self {
-        Self(self.0.floor())
+        exponential::floor(self)
     }
 
     #[inline(always)]
     fn sin(self) -> Self {
-        self.each(libm::sin)
+        trigonometric::sin_cos(self).0
     }
 
     #[inline(always)]
     fn cos(self) -> Self {
-        self.each(libm::cos)
+        trigonometric::sin_cos(self).1
     }
 
     #[inline(always)]
     fn tan(self) -> Self {
-        self.each(libm::tan)
+        trigonometric::tan(self)
     }
 
     #[inline(always)]
     fn asin(self) -> Self {
-        self.each(libm::asin)
+        trigonometric::asin(self)
     }
 
     #[inline(always)]
     fn acos(self) -> Self {
-        self.each(libm::acos)
+        trigonometric::acos(self)
     }
 
     #[inline(always)]
     fn atan(self) -> Self {
-        self.each(libm::atan)
+        trigonometric::atan(self)
     }
 
     #[inline(always)]
     fn exp(self) -> Self {
-        self.each(libm::exp)
+        exponential::exp(self)
     }
 
     #[inline(always)]
     fn ln(self) -> Self {
-        self.each(libm::log)
+        exponential::ln(self)
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        trigonometric::sin_cos(self)
     }
 
     #[inline(always)]
     fn atan2(self, x: Self) -> Self {
-        Self(I::f32s::from_fn(
-            self.0.token(),
-            #[inline(always)]
-            |lane| libm::atan2(self.0[lane].into(), x.0[lane].into()) as f32,
-        ))
+        trigonometric::atan2(self, x)
     }
 
     #[inline(always)]
     fn pow(self, exponent: Self) -> Self {
-        Self(I::f32s::from_fn(
-            self.0.token(),
-            #[inline(always)]
-            |lane| libm::pow(self.0[lane].into(), exponent.0[lane].into()) as f32,
-        ))
+        exponential::pow(self, exponent)
     }
 }

@@ -1,7 +1,9 @@
 //! `f64`: the reference every other number type is tested against.
 //!
-//! Elementary functions come from the crate `libm`, a port of those of FreeBSD: their errors stay below one unit in the
-//! last place, and they are the same bits with every C library.
+//! Elementary functions come from the crate `libm`, a port of those of FreeBSD: the same bits with every C library. Its
+//! sources promise errors below one unit in the last place for the exponential and the logarithm. Against numbers of 120
+//! bits, 600 000 random arguments each, no function was off by more than 0.9 units, but the arc tangent of two arguments
+//! by ATAN2.
 
 use super::Scalar;
 
