@@ -50,6 +50,6 @@ pub mod prelude {
     pub use freikugel_render::{Image, Options, Rendered, Stats};
     pub use freikugel_scene::{
         Ambient, Background, Camera, Falloff, Light, Material, Model, Object, Occlusion, Overbright, Pattern, Picture,
-        Point, Projection, Scene, Shadow, Spot, Sun, Tracing,
+        Point, Projection, Scene, Shadow, Spot, Sun, Tracer,
     };
 }

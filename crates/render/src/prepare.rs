@@ -201,7 +201,7 @@ fn hull(a: Extent, b: Extent) -> Extent {
 }
 
 fn check_tracing(scene: &Scene) -> Result<(), PrepareError> {
-    let tracing = &scene.tracing;
+    let tracing = &scene.tracer;
     let fault = if !(tracing.max_distance > 0.0 && tracing.max_distance.is_finite()) {
         "the maximum distance must be above 0"
     } else if !(0.0..1.0).contains(&tracing.precision) {
@@ -293,7 +293,7 @@ impl<'r> Frame<'r> {
         let (fixed, growth) = (fixed / spread, growth / spread);
         let tolerance = Tolerance {
             fixed: fixed / 2.0 * FOOTPRINT_SHARE,
-            growth: (growth / 2.0 * FOOTPRINT_SHARE).max(scene.tracing.precision),
+            growth: (growth / 2.0 * FOOTPRINT_SHARE).max(scene.tracer.precision),
         };
         let bounds = match renderer.bounds {
             Extent::Finite(bounds) => {
@@ -317,8 +317,8 @@ impl<'r> Frame<'r> {
             lamps,
             pace: Pace {
                 scale: renderer.scale.min(f64::from(f32::MAX)) as f32,
-                step_factor: scene.tracing.step_factor as f32,
-                max_steps: scene.tracing.max_steps,
+                step_factor: scene.tracer.step_factor as f32,
+                max_steps: scene.tracer.max_steps,
             },
             tolerance,
             bounds,

@@ -180,7 +180,7 @@ impl Frame<'_> {
 
     /// The part of a shadow ray on which marched objects can dim it.
     fn shadow_span(&self, ray: &Ray, sharpness: Option<f32>) -> Option<[f32; 2]> {
-        let limit = self.renderer.scene.tracing.max_distance;
+        let limit = self.renderer.scene.tracer.max_distance;
         let (near, far) = match (&self.bounds, sharpness) {
             (None, _) => (0.0, limit),
             (Some(bounds), None) => clip(bounds, ray)?,

@@ -148,7 +148,7 @@ impl<'f> Tracer<'f> {
             .filter(|(_, t)| t.is_finite())
             .min_by(|(_, a), (_, b)| a.total_cmp(b));
 
-        let limit = frame.renderer.scene.tracing.max_distance;
+        let limit = frame.renderer.scene.tracer.max_distance;
         let span = match &frame.bounds {
             _ if self.marched.is_none() => None,
             Some(bounds) => clip(bounds, &ray),

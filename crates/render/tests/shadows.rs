@@ -81,7 +81,7 @@ fn hardness_below_one_is_wider_than_a_half_space() {
     let sun = Sun { direction, shadow: Shadow::Hardness(0.8), ..Sun::default() };
     let mut scene = scene_with(Light::Sun(sun));
     // Where the ray goes to infinity the ratio tends to 1, and the factor to the hardness.
-    scene.tracing.max_distance = 1e4;
+    scene.tracer.max_distance = 1e4;
     let rendered = picture(&scene, &options(SIZE.0, SIZE.1));
     let far = f64::from(rendered.image.pixel(0, 240)[0]) / direction.z;
     assert!(far > 0.0 && far <= 0.81, "{far}");

@@ -7,7 +7,7 @@ use freikugel_field::MaterialId;
 use freikugel_field::shapes::*;
 use freikugel_render::{Options, PrepareError, RenderError, Renderer, render};
 use freikugel_scene::{
-    Ambient, Background, Camera, Light, Material, Object, Occlusion, Pattern, Point, Scene, Shadow, Sun, Tracing,
+    Ambient, Background, Camera, Light, Material, Object, Occlusion, Pattern, Point, Scene, Shadow, Sun, Tracer,
 };
 use glam::DVec3;
 
@@ -28,7 +28,7 @@ fn rays_out_of_steps_are_counted_and_are_neither_hits_nor_misses() {
     let good = picture(&scene, &size).stats;
     assert_eq!(good.unresolved, Default::default());
 
-    scene.tracing = Tracing { max_steps: 3, ..Tracing::default() };
+    scene.tracer = Tracer { max_steps: 3, ..Tracer::default() };
     let poor = picture(&scene, &size).stats;
     assert!(poor.unresolved.pixels > 100, "{poor:?}");
     assert_eq!(poor.unresolved.pixels, poor.unresolved.camera, "one ray for each pixel");
@@ -107,7 +107,7 @@ fn a_flat_field_makes_no_false_hits() {
     let mut scene = Scene { camera: Some(from_above(50.0, 6.0)), ambient: WHITE, ..dark() };
     scene.camera.as_mut().expect("a camera").eye.y = 12.0;
     scene.camera.as_mut().expect("a camera").target.y = 12.0;
-    scene.tracing = Tracing { precision: 1e-4, max_steps: 100_000, ..Tracing::default() };
+    scene.tracer = Tracer { precision: 1e-4, max_steps: 100_000, ..Tracer::default() };
     add(&mut scene, shape, chalk());
     // Something beyond the picture, so that the objects' box does not end at the tip.
     add(&mut scene, sphere(0.1).at([0.0, 30.0, 0.0]), chalk());
@@ -132,8 +132,8 @@ fn far_away_is_as_good_as_near() {
         let camera = Camera { eye: center - DVec3::Y * distance, target: center, ..from_above(1.0, 2.5) };
         let camera = Camera { up: DVec3::Z, ..camera };
         let mut scene = Scene { camera: Some(camera), ambient: WHITE, ..dark() };
-        scene.tracing.max_distance = 1e6;
-        scene.tracing.precision = 0.0;
+        scene.tracer.max_distance = 1e6;
+        scene.tracer.precision = 0.0;
         add(&mut scene, sphere(1.0).at(center), chalk());
         let rendered = picture(&scene, &options(100, 100));
         assert_eq!(rendered.stats.unresolved.pixels, 0);
@@ -232,7 +232,7 @@ fn faults_are_reported() {
     unlit.lights.push(Light::Sun(Sun::default()));
     unlit.lights.push(Light::Sun(Sun { direction: DVec3::ZERO, ..Sun::default() }));
     assert!(matches!(fault(&unlit, &good), RenderError::Prepare(PrepareError::Light { index: 1, .. })));
-    let frozen = Scene { tracing: Tracing { step_factor: 0.0, ..Tracing::default() }, ..dark() };
+    let frozen = Scene { tracer: Tracer { step_factor: 0.0, ..Tracer::default() }, ..dark() };
     assert!(matches!(fault(&frozen, &good), RenderError::Prepare(PrepareError::Tracing(_))));
     assert!(matches!(fault(&dark(), &options(0, 8)), RenderError::Options(_)));
 }

@@ -74,7 +74,7 @@ impl Check {
         if let Some(occlusion) = &scene.occlusion {
             self.faults(None, "occlusion", occlusion.faults());
         }
-        self.faults(None, "tracing", scene.tracing.faults());
+        self.faults(None, "tracer", scene.tracer.faults());
         self.faults(None, "picture", scene.picture.faults());
     }
 

@@ -260,7 +260,7 @@ mod tests {
         survives(&Ambient::default());
         survives(&Occlusion::default());
         survives(&Occlusion { strength: 0.3, reach: Some(0.1) });
-        survives(&Tracing::default().precision(1e-6).max_steps(1));
+        survives(&Tracer::default().precision(1e-6).max_steps(1));
         survives(&Picture::default().exposure(-1.5).width(65_536));
         survives(&Picture { overbright: Overbright::ScaleDown, ..Picture::default() });
     }
@@ -276,7 +276,7 @@ mod tests {
             Material::default().faults(),
             Ambient::default().faults(),
             Occlusion::default().faults(),
-            Tracing::default().faults(),
+            Tracer::default().faults(),
             Picture::default().faults(),
             Scene::default().faults(),
         ];

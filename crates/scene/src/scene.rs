@@ -7,7 +7,7 @@ use crate::notation::{List, Maybe, Remark};
 use crate::object::{MaterialsNotation, Object, ObjectsNotation};
 use crate::read::VersionNotation;
 use crate::record::{RecordNotation, record};
-use crate::settings::{Picture, Tracing};
+use crate::settings::{Picture, Tracer};
 use crate::surroundings::{Ambient, AmbientNotation, Background, BackgroundNotation, Occlusion, OcclusionNotation};
 use freikugel_field::{Field, MaterialId};
 use std::panic::Location;
@@ -31,7 +31,7 @@ record! {
         /// The objects: shapes with their names and materials.
         pub objects: Vec<Object> = Vec::new(), required ObjectsNotation;
         /// The limits of tracing a ray.
-        pub tracing: Tracing = Tracing::default(), optional RecordNotation;
+        pub tracer: Tracer = Tracer::default(), optional RecordNotation;
         /// The size of the picture and how light becomes colour in it.
         pub picture: Picture = Picture::default(), optional RecordNotation;
     }

@@ -6,7 +6,7 @@ use crate::record::record;
 record! {
     /// The limits of tracing a ray.
     #[derive(Clone, Debug, PartialEq)]
-    pub struct Tracing = "tracing" {
+    pub struct Tracer = "tracer" {
         /// How far a ray goes before it counts as a miss.
         pub max_distance: f64 = 1000.0, optional Number::ANY.above(0.0), setter max_distance;
         /// How near to a surface a ray must come to hit it, as a share of the distance it has gone.

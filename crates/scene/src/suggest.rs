@@ -16,13 +16,21 @@ pub(crate) fn closest<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) 
         .map(|(_, name)| name)
 }
 
+/// The least that two words with different endings must share: shorter stems belong to unrelated words.
+const SHORTEST_STEM: usize = 4;
+
+/// The longest ending that a name may have in another form, as the one of `tracing` for `tracer`.
+const LONGEST_ENDING: usize = 3;
+
 /// How far apart two words are, or `None` if one is not meant by the other: at most one typing mistake in three letters,
-/// or a name cut short.
+/// a name cut short, or its stem with another ending.
 fn strangeness(word: &str, name: &str) -> Option<usize> {
     let mistakes = strsim::damerau_levenshtein(word, name);
     let is_close = 3 * mistakes <= word.chars().count().max(name.chars().count());
     let is_cut = word.len() >= 3 && name.starts_with(word);
-    (is_close || is_cut).then_some(mistakes)
+    let stem = word.chars().zip(name.chars()).take_while(|(a, b)| a == b).count();
+    let is_inflected = stem >= SHORTEST_STEM && word.chars().count().max(name.chars().count()) <= stem + LONGEST_ENDING;
+    (is_close || is_cut || is_inflected).then_some(mistakes)
 }
 
 /// Case and the ways to separate words make no difference.
@@ -57,7 +65,7 @@ pub(crate) fn listed<'n>(names: impl IntoIterator<Item = &'n str>) -> String {
 mod tests {
     use super::{closest, quote};
 
-    const NAMES: [&str; 6] = ["sphere", "box", "smooth_union", "position", "k", "by"];
+    const NAMES: [&str; 8] = ["sphere", "box", "smooth_union", "position", "tracer", "rotate", "k", "by"];
 
     #[test]
     fn finds_what_was_meant() {
@@ -68,6 +76,9 @@ mod tests {
             ("smooth-union", Some("smooth_union")),
             ("pos", Some("position")),
             ("boxx", Some("box")),
+            ("tracing", Some("tracer")),
+            ("rotation", Some("rotate")),
+            ("spheroids", None),
             ("r", None),
             ("teapot", None),
             ("", None),

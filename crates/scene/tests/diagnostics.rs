@@ -46,7 +46,7 @@ fn syntax() {
         ("open_comment", "{ /* \"objects\": [] }"),
         (
             "relaxed_json",
-            "{ camera: { 'eye': [+4, -6, .5], \"target\": [0x1, 0, 5.],},\n  \"tracing\": { \"step_factor\": NaN }\n  \
+            "{ camera: { 'eye': [+4, -6, .5], \"target\": [0x1, 0, 5.],},\n  \"tracer\": { \"step_factor\": NaN }\n  \
              \"objects\": [ { \"shape\": { \"sphere\": { \"radios\": 1 } } } ] }",
         ),
     ] {
@@ -69,8 +69,8 @@ fn documents() {
     for (name, entries) in [
         ("wrong_version", r#""version": 0.5"#),
         ("version_as_text", r#""version": "1""#),
-        ("unknown_key", r#""camra": {}, "fog": {}"#),
-        ("duplicate_key", r#""tracing": {}, "tracing": {}"#),
+        ("unknown_key", r#""camra": {}, "tracing": {}, "fog": {}"#),
+        ("duplicate_key", r#""tracer": {}, "tracer": {}"#),
         ("camera", r#""camera": { "target": [0, 0], "up": [0, 0, 0], "fov": 180, "height": 3 }"#),
         ("named_axis", r#""camera": { "eye": [1, 2, 3], "fov": { "diagonal": 30 }, "up": "up" }"#),
         ("lights", r##""lights": [ { "sun": {} }, { "lamp": {} }, {}, { "point": {}, "spot": {} }, 1 ]"##),
@@ -104,7 +104,7 @@ fn documents() {
         ("model", r#""materials": { "a": { "model": "Phong" }, "b": { "model": "lambert" }, "c": { "model": 1 } }"#),
         ("same_material_twice", r#""materials": { "a": {}, "a": {} }"#),
         ("occlusion", r#""occlusion": { "strength": -1, "reach": 0 }"#),
-        ("limits", r#""tracing": { "max_steps": 0.5, "precision": 0, "step_factor": 1.5, "max_distance": -1e300 }"#),
+        ("limits", r#""tracer": { "max_steps": 0.5, "precision": 0, "step_factor": 1.5, "max_distance": -1e300 }"#),
         (
             "picture",
             r#""picture": { "width": 0, "height": 1e9, "samples": -1, "exposure": 1e39, "overbright": "scale" }"#,

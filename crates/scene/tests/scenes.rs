@@ -22,7 +22,7 @@ fn one_object_is_a_scene() {
     assert_eq!(scene.occlusion, Some(Occlusion { strength: 1.0, reach: None }));
     assert_eq!(scene.background, default.background);
     assert!(scene.materials.is_empty());
-    assert_eq!(scene.tracing, Tracing::default());
+    assert_eq!(scene.tracer, Tracer::default());
     assert_eq!(scene.picture, Picture::default());
     assert_eq!(scene.objects[0].name, "object 1");
     assert_eq!(scene.objects[0].material, None);

@@ -10,7 +10,7 @@ use freikugel_field::{Field, MaterialId};
 use freikugel_render::{Image, Options, Rendered, render};
 use freikugel_scene::{
     Ambient, Background, Camera, Falloff, FovAxis, Light, Material, Model, Object, Pattern, Projection, Scene, Shadow,
-    Tracing,
+    Tracer,
 };
 use glam::DVec3;
 
@@ -22,7 +22,7 @@ pub(crate) fn dark() -> Scene {
         occlusion: None,
         lights: Vec::new(),
         objects: Vec::new(),
-        tracing: Tracing { precision: 1e-6, ..Tracing::default() },
+        tracer: Tracer { precision: 1e-6, ..Tracer::default() },
         ..Scene::default()
     }
 }
