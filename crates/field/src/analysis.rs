@@ -4,10 +4,11 @@
 //! directions, the farthest a point of the shape can lie. A direction passes through affine maps exactly, so a rotated
 //! torus gets its true box and not the box of a rotated box.
 
-use crate::contract::{Aabb, Contract, Extent};
+use crate::contract::{Aabb, Contract, Extent, Metric};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::field::{Field, Node};
 use crate::shape::{Arity, Hull, Kind};
+use crate::shapes::formula;
 use glam::{DMat3, DVec3};
 
 /// The deepest nesting a field may have; deeper ones would exhaust the stack of a small thread.
@@ -122,6 +123,20 @@ impl Walk {
                 }
             }
             Kind::Paint => children[0],
+            Kind::Formula => {
+                self.primitives += 1;
+                match &node.formula {
+                    Some(Ok(_)) => {}
+                    Some(Err(fault)) => {
+                        self.report(node, Severity::Error, None, fault.to_string(), fault.hint.clone());
+                        return None;
+                    }
+                    None => return self.error(node, None, format!("`{name}` needs `f`, the formula")),
+                }
+                let implicit = Metric::Implicit;
+                let signed = !formula::Parts::of(&args).is_sheet;
+                Some(Contract { outside: implicit, inside: implicit, signed, lipschitz: None })
+            }
         }
     }
 
@@ -202,6 +217,7 @@ fn support(field: &Field, direction: DVec3, level: f64) -> f64 {
             None => f64::INFINITY,
         },
         Kind::Paint => support(&node.children[0], direction, level),
+        Kind::Formula => formula::Parts::of(&args).support(direction, level),
     }
 }
 

@@ -5,11 +5,11 @@
 //! in `f64`.
 
 use crate::field::{Field, MaterialId, Node};
-use crate::formula::{Formula, Term};
+use crate::formula::{Binary, Formula, Term, Unary};
 use crate::kernel::AFFINE_CONSTANTS;
-use crate::operation::{Code, Derive, Link, Region, Run, Step, StepId, Steps};
-use crate::shape::{CombineTable, Kind};
-use crate::shapes;
+use crate::operation::{Code, Derive, Link, NO_REGION, Region, Run, Step, StepId, Steps};
+use crate::shape::{CombineTable, Kind, Shape};
+use crate::shapes::{self, formula};
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
@@ -132,13 +132,11 @@ impl Compiler {
                 let slope = self.derived(1, |out| Derive::Slope { table, args, out: out.start }).start() as u32;
                 let point = space.point;
                 let value = self.push(Step::Primitive { table, point, at, constants, slope, region });
-                match before {
-                    None => value,
-                    Some(before) => {
-                        let Kind::Combine(table) = &shapes::UNION.kind else { unreachable!("union combines") };
-                        self.push(Step::Combine { table, a: before, b: value, constants: Run::default() })
-                    }
-                }
+                self.joined(before, value)
+            }
+            Kind::Formula => {
+                let value = self.formula_node(tree, space, material);
+                self.joined(before, value)
             }
             Kind::Combine(table) => {
                 // Several children would each repeat the map.
@@ -178,10 +176,47 @@ impl Compiler {
         }
     }
 
-    /// Emits the terms of a formula in the coordinates of `space`.
-    fn formula(&mut self, formula: &Formula, space: &Space) -> StepId {
+    /// The minimum of a value and the one before it, if there is one.
+    fn joined(&mut self, before: Option<StepId>, value: StepId) -> StepId {
+        let Some(before) = before else { return value };
+        let Kind::Combine(table) = &shapes::UNION.kind else { unreachable!("union combines") };
+        self.push(Step::Combine { table, a: before, b: value, constants: Run::default() })
+    }
+
+    /// Emits a formula with its cut.
+    fn formula_node(&mut self, tree: &Slotted<'_>, space: &Space, material: Option<MaterialId>) -> StepId {
+        let expression = formula::expression(tree.node).expect("analysis refuses formulas that can't be read");
+        let parts = formula::Parts::of(&tree.node.numbers());
         let space = if space.chain.iter().all(Link::is_translation) { space.clone() } else { self.materialise(space) };
         let (point, at) = (space.point, self.offset(&space));
+        let mut value = self.formula(expression, point, at);
+        if parts.is_sheet {
+            value = self.push(Step::Unary { op: Unary::Abs, from: value });
+        }
+        // Which kind it is and what it is cut to shape the steps; the region's sizes are numbers like others.
+        let args = &tree.args;
+        self.fixed.extend([args.start, args.start + formula::REGION, args.end - 1]);
+        let size = args.start + formula::REGION + 1..args.end - 1;
+        let cut: Option<(&Shape, fn(&[f64]) -> Vec<f64>)> = match parts.region {
+            formula::Region::Everywhere => None,
+            formula::Region::Sphere { .. } => Some((&shapes::SPHERE, |size| size[..1].to_vec())),
+            formula::Region::Box { .. } => {
+                Some((&shapes::BOX, |size| vec![size[0] / 2.0, size[1] / 2.0, size[2] / 2.0, 0.0]))
+            }
+        };
+        if let Some((shape, prepare)) = cut {
+            let Kind::Primitive(table) = &shape.kind else { unreachable!("a sphere or a box") };
+            let constants = self.prepared(prepare, &size);
+            let slope = self.derived(1, |out| Derive::Literals { numbers: vec![1.0], out }).start() as u32;
+            let b = self.push(Step::Primitive { table, point, at, constants, slope, region: NO_REGION });
+            value = self.push(Step::Binary { op: Binary::Max, a: value, b });
+        }
+        let region = self.region(Region { object: self.object, material });
+        self.push(Step::Surface { from: value, region })
+    }
+
+    /// Emits the terms of a formula in the coordinates of a point.
+    fn formula(&mut self, formula: &Formula, point: StepId, at: Run) -> StepId {
         let literal = |term: &Term| match term {
             Term::Literal(number) => Some(*number),
             _ => None,
@@ -251,6 +286,7 @@ fn can_fold(node: &Node) -> bool {
         Kind::Place(_) => is_rigid(node) && can_fold(node.children[0].node()),
         Kind::Modify(_) => false,
         Kind::Paint => can_fold(node.children[0].node()),
+        Kind::Formula => true,
     }
 }
 

@@ -3,6 +3,7 @@
 //! A [`Field`] is cheap to clone and never fails to be built; mistakes are found by [`crate::analyse`], which reports
 //! all of them with the place they come from. Equal subtrees stay separate: changing one never changes the other.
 
+use crate::formula::{Formula, FormulaError};
 use crate::shape::Shape;
 use crate::shapes;
 use std::marker::PhantomData;
@@ -89,6 +90,8 @@ pub struct Node {
     pub children: Vec<Field>,
     /// The material it paints with.
     pub material: Option<MaterialId>,
+    /// The formula it computes, or what is wrong with its text; for [`crate::Kind::Formula`] alone.
+    pub formula: Option<Result<Formula, FormulaError>>,
     /// Where it was written.
     pub origin: Origin,
     depth: u32,
@@ -123,7 +126,14 @@ impl Field {
         }
         let children: Vec<Field> = children.into_iter().collect();
         let depth = 1 + children.iter().map(|c| c.0.depth).max().unwrap_or(0);
-        Self(Arc::new(Node { shape, args, children, material, origin, depth }))
+        Self(Arc::new(Node { shape, args, children, material, formula: None, origin, depth }))
+    }
+
+    /// The call with a formula to compute.
+    #[must_use]
+    pub fn with_formula(mut self, formula: Result<Formula, FormulaError>) -> Self {
+        Arc::make_mut(&mut self.0).formula = Some(formula);
+        self
     }
 
     /// The outermost call.
@@ -160,7 +170,9 @@ impl Field {
         *numbers = rest;
         let args = own.iter().map(|&number| Value::Literal(number)).collect();
         let children = node.children.iter().map(|child| child.with_numbers(numbers)).collect();
-        Self(Arc::new(Node { args, children, ..node.clone() }))
+        let mut copy = node.clone();
+        (copy.args, copy.children) = (args, children);
+        Self(Arc::new(copy))
     }
 
     /// Combines two fields, joining chains of the same parameterless function into one call.
@@ -222,6 +234,11 @@ impl<P> Form<P> {
     #[track_caller]
     pub fn new(shape: &'static Shape, args: impl IntoIterator<Item = Value>) -> Self {
         Self { field: Field::new(shape, args, []), kind: PhantomData }
+    }
+
+    /// The same with its field changed.
+    pub(crate) fn map(self, change: impl FnOnce(Field) -> Field) -> Self {
+        Self { field: change(self.field), ..self }
     }
 
     /// See [`Field::with`].

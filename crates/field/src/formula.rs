@@ -147,8 +147,9 @@ impl Binary {
             Self::Min => a.min(b),
             Self::Max => a.max(b),
             Self::Pow => a.pow(b),
-            Self::Atan2 => a.atan2(b),
-            Self::Less => S::select(a.lt(b), a.lift(1.0), a.lift(0.0)),
+            // Zeros have no sign here: what made one must not choose the side of the jump.
+            Self::Atan2 => (a + 0.0).atan2(b + 0.0),
+            Self::Less => a.less(b),
         }
     }
 

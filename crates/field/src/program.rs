@@ -217,6 +217,7 @@ impl Program {
 #[derive(Debug)]
 pub struct Part {
     pub(crate) steps: Steps,
+    is_measured: bool,
     listing: OnceLock<Listing>,
     one_by_one: OnceLock<Listing>,
     kept: OnceLock<Listing>,
@@ -226,7 +227,20 @@ pub struct Part {
 impl Part {
     pub(crate) fn new(steps: Steps) -> Self {
         let one_by_one = OnceLock::new();
-        Self { steps, listing: OnceLock::new(), one_by_one, kept: OnceLock::new(), regions: OnceLock::new() }
+        let is_measured = !steps.list.iter().any(|step| matches!(step, Step::Surface { .. }));
+        Self {
+            steps,
+            is_measured,
+            listing: OnceLock::new(),
+            one_by_one,
+            kept: OnceLock::new(),
+            regions: OnceLock::new(),
+        }
+    }
+
+    /// Whether all values in it are distances or bounds of them up to a factor, so that rays can march by them.
+    pub fn is_measured(&self) -> bool {
+        self.is_measured
     }
 
     /// How many steps there are.

@@ -104,6 +104,12 @@ pub trait Scalar:
         self.lift(0.0)
     }
 
+    /// 1 where `self < rhs`, otherwise 0: a step function.
+    #[inline(always)]
+    fn less(self, rhs: Self) -> Self {
+        Self::select(self.lt(rhs), self.lift(1.0), self.lift(0.0))
+    }
+
     /// The largest integer that is not larger; its derivative is 0 everywhere, except over the steps of an interval.
     fn floor(self) -> Self;
 

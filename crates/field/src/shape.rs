@@ -73,6 +73,9 @@ pub enum ParamKind {
     Angles,
     /// A quaternion x, y, z, w other than 0; its length does not matter.
     Quaternion,
+    /// A region of space: stored as 0 for all of it, or 1 and a sphere's radius, or 2 and a box's three full edge lengths;
+    /// always four numbers.
+    Region,
     /// A list of half-spaces, each with an outward normal and the distance of its plane from the origin: x, y, z, d.
     HalfSpaces,
 }
@@ -89,7 +92,7 @@ impl ParamKind {
             | Self::Choice(_)
             | Self::Flag => 1,
             Self::Vector | Self::Direction | Self::Size | Self::Factors | Self::Angles => 3,
-            Self::Quaternion | Self::HalfSpaces => 4,
+            Self::Quaternion | Self::Region | Self::HalfSpaces => 4,
         }
     }
 
@@ -112,6 +115,14 @@ impl ParamKind {
             Self::Factors if value.contains(&0.0) => Some("must not be 0 in any direction".into()),
             Self::Direction if length < SHORTEST_DIRECTION => Some("must not be the zero vector".into()),
             Self::Quaternion if length < SHORTEST_DIRECTION => Some("must not be the zero quaternion".into()),
+            Self::Region => match *value {
+                [kind, radius, ..] if kind == 1.0 && radius <= 0.0 => Some("needs a radius above 0".into()),
+                [kind, ref size @ ..] if kind == 2.0 && size.iter().any(|&edge| edge <= 0.0) => {
+                    Some("needs a size above 0 in every direction".into())
+                }
+                [kind, ..] if ![0.0, 1.0, 2.0].contains(&kind) => Some("must be a sphere or a box".into()),
+                _ => None,
+            },
             Self::HalfSpaces => value.chunks(4).enumerate().find_map(|(i, plane)| {
                 (DVec3::new(plane[0], plane[1], plane[2]).length() < SHORTEST_DIRECTION)
                     .then(|| format!("entry {i} has a zero normal"))
@@ -333,6 +344,8 @@ pub enum Kind {
     Modify(ModifyTable),
     /// Gives its child a material.
     Paint,
+    /// Computes a formula.
+    Formula,
 }
 
 /// The functions of a [`Primitive`].
@@ -456,7 +469,7 @@ impl Shape {
     /// How many children it takes: none, exactly one, or any number above 0.
     pub fn arity(&self) -> Arity {
         match self.kind {
-            Kind::Primitive(_) => Arity::None,
+            Kind::Primitive(_) | Kind::Formula => Arity::None,
             Kind::Combine(_) => Arity::Many,
             Kind::Place(_) | Kind::Modify(_) | Kind::Paint => Arity::One,
         }

@@ -13,6 +13,7 @@ pub mod cylinder;
 pub mod difference;
 pub mod ellipsoid;
 pub mod ellipsoid_bound;
+pub mod formula;
 pub mod intersection;
 pub mod offset;
 pub mod paint;
@@ -45,6 +46,7 @@ pub use cylinder::*;
 pub use difference::*;
 pub use ellipsoid::*;
 pub use ellipsoid_bound::*;
+pub use formula::*;
 pub use intersection::*;
 pub use offset::*;
 pub use paint::*;
@@ -80,6 +82,7 @@ pub static ALL: &[&Shape] = &[
     &DIFFERENCE,
     &ELLIPSOID,
     &ELLIPSOID_BOUND,
+    &FORMULA,
     &INTERSECTION,
     &OFFSET,
     &PAINT,

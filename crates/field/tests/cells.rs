@@ -88,6 +88,27 @@ fn every_shape_survives_pruning() {
     }
 }
 
+#[test]
+fn formulas_survive_pruning() {
+    let mut random = Random::new(21);
+    for text in [
+        "x^2 + 2y^2 + z^2 - 0.6",
+        "x^4 + y^4 + z^4 - (x^2 + y^2 + z^2) / 2 + x*y / 5 - 0.1",
+        "sin(3x) * cos(3y) + sin(3y) * cos(3z) + sin(3z) * cos(3x)",
+        "max(abs(x) - 0.5, min(y, exp(z) - 1.2), abs(abs(z - 0.3) - 1) - 0.7)",
+        "floor(2x) / 2 + ln(4 + y) - sqrt(abs(z)) + atan2(y, x + 4) - (x < y) / 9",
+        "1 / (4 + x) - tan(z / 4) * acos(y / 9) + asin(x / 9) - pow(4 + y, 1.3) / 5 + 0.2",
+    ] {
+        let text = text.replace("(x < y) / 9", "step(x, y) / 9");
+        let within = formula(&text).within_sphere(1.8);
+        check_field(&[within.clone().into()], &mut random);
+        check_field(&[within.clone().sheet().into(), sphere(0.7).at([0.5, 0.2, 0.1])], &mut random);
+        let turned =
+            formula(&text).within_box([2.0, 3.0, 2.5]).open().rotate([1.0, 2.0, 3.0], 40.0).at([0.2, 0.1, 0.0]);
+        check_field(&[turned, within.into()], &mut random);
+    }
+}
+
 /// How many steps matter on average in the boxes at this depth that hold a surface.
 fn steps_left(fields: &[Field], levels: usize) -> f64 {
     let program = Structure::compile(fields).expect("a sound field").program(DVec3::ZERO);

@@ -60,7 +60,7 @@ fn share_below(offset: f64) -> f64 {
     let x = offset / SUPPORT;
     let waves = (1..4).map(|order| {
         let frequency = TAU * order as f64;
-        TERMS[order] * (frequency * x).sin() / frequency
+        TERMS[order] * libm::sin(frequency * x) / frequency
     });
     x + 0.5 + waves.sum::<f64>() / TERMS[0]
 }

@@ -57,7 +57,7 @@ impl Image {
 
     /// The picture in sRGB, three bytes for each pixel.
     pub fn to_srgb8(&self, tone: &Tone) -> Vec<u8> {
-        let gain = tone.exposure.exp2();
+        let gain = libm::exp2f(tone.exposure);
         let encoder = &*ENCODER;
         self.pixels
             .iter()

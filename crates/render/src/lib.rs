@@ -48,6 +48,7 @@ mod options;
 mod packet;
 mod prepare;
 mod run;
+mod search;
 mod shade;
 mod stats;
 mod trace;

@@ -89,8 +89,8 @@ impl Lamp {
                 let half = spot.angle / 2.0;
                 let cone = Cone {
                     axis: unit(spot.target - spot.position, fault)?,
-                    outer: half.cos() as f32,
-                    inner: (half * (1.0 - spot.softness.clamp(0.0, 1.0))).cos() as f32,
+                    outer: libm::cos(half) as f32,
+                    inner: libm::cos(half * (1.0 - spot.softness.clamp(0.0, 1.0))) as f32,
                 };
                 let emitter = Emitter::Point {
                     position: (spot.position - origin).as_vec3().to_array(),
@@ -118,7 +118,7 @@ impl Lamp {
             },
             (Shadow::Clearance { angle }, None) => match angle.unwrap_or(SUN_DIAMETER) {
                 angle if angle <= 0.0 => Dimming::Hard,
-                angle if angle <= PI => Dimming::Sharpness((1.0 / (angle / 2.0).tan()) as f32),
+                angle if angle <= PI => Dimming::Sharpness((1.0 / libm::tan(angle / 2.0)) as f32),
                 _ => return Err("a sun must not be wider than 180 degrees"),
             },
         };

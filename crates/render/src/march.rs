@@ -151,11 +151,6 @@ impl March {
         }
     }
 
-    /// Whether no ray is on its way.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.count == 0
-    }
-
     /// Takes all rays to their first surface. Appends how they ended, in no particular order, and returns how
     /// many field values that took.
     pub(crate) fn hard(&mut self, field: &mut Evaluator<'_>, part: &Part, pace: Pace, ends: &mut Vec<End>) -> u64 {

@@ -86,7 +86,7 @@ impl Surface {
                     dot(normal, between) / length(between).max(f32::MIN_POSITIVE)
                 }
             };
-            self.specular * cosine.clamp(0.0, 1.0).powf(self.exponent)
+            self.specular * libm::powf(cosine.clamp(0.0, 1.0), self.exponent)
         } else {
             0.0
         };

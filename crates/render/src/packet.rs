@@ -6,9 +6,10 @@
 //! depends on nothing but the ray and the cells: not on its companions.
 
 use crate::march::{End, Fate, March, Pace, Start};
+use crate::search::Search;
 use crate::vector::Triple;
 use freikugel_field::simd::{self, Level};
-use freikugel_field::{Cell, Cells, Evaluator, Occupancy, Splitter};
+use freikugel_field::{Cell, Cells, Encloser, Evaluator, Occupancy, Splitter};
 
 /// A part with this many steps is not worth splitting further: the point and two primitives with their union.
 const SMALL_PART: usize = 8;
@@ -51,6 +52,7 @@ pub(crate) struct Packet<'f> {
     /// The cells in which something was met.
     pub(crate) places: Vec<&'f Cell>,
     march: March,
+    search: Search,
     ends: Vec<End>,
 }
 
@@ -133,17 +135,18 @@ impl<'f> Packet<'f> {
 
     /// Takes all rays as far as they go. Appends how they ended; of those that met something, all that met it in one cell
     /// stand together. Returns how many field values that took. The packet is empty afterwards.
-    pub(crate) fn travel(
+    pub(crate) fn travel<'e>(
         &mut self,
         space: &Space<'f>,
         quest: Quest,
-        field: &mut Evaluator<'_>,
+        field: &mut Evaluator<'e>,
+        encloser: &mut Encloser<'e>,
         splitter: &mut Splitter,
         ends: &mut Vec<End>,
     ) -> u64 {
         self.places.clear();
-        let Self { bundles, places, march, ends: own, .. } = self;
-        let mut trip = Trip { space, quest, field, splitter, places, march, ends: own };
+        let Self { bundles, places, march, search, ends: own } = self;
+        let mut trip = Trip { space, quest, field, encloser, splitter, places, march, search, ends: own };
         let mut evaluations = 0;
         for bundle in bundles.iter_mut().filter(|bundle| !bundle.starts.is_empty()) {
             evaluations += trip.take(bundle);
@@ -280,9 +283,11 @@ struct Trip<'a, 'f, 'e> {
     space: &'a Space<'f>,
     quest: Quest,
     field: &'a mut Evaluator<'e>,
+    encloser: &'a mut Encloser<'e>,
     splitter: &'a mut Splitter,
     places: &'a mut Vec<&'f Cell>,
     march: &'a mut March,
+    search: &'a mut Search,
     ends: &'a mut Vec<End>,
 }
 
@@ -334,7 +339,8 @@ impl<'f> Trip<'_, 'f, '_> {
     }
 
     fn is_small(&self, cell: &Cell) -> bool {
-        if cell.occupancy() != Occupancy::Surface || cell.part().size() <= SMALL_PART {
+        let part = cell.part();
+        if cell.occupancy() != Occupancy::Surface || (part.size() <= SMALL_PART && part.is_measured()) {
             return true;
         }
         let (middle, half, eye) = (cell.middle(), cell.half(), self.space.eye);
@@ -391,7 +397,9 @@ impl<'f> Trip<'_, 'f, '_> {
 
     /// Lets the rays in `bundle.met` march where the part of `cell` holds.
     fn march_met(&mut self, bundle: &mut Bundle, cell: &'f Cell) -> u64 {
-        let is_soft = self.quest == Quest::Least;
+        let is_measured = cell.part().is_measured();
+        // Without a scale there is no clearance: a surface dims all or nothing.
+        let is_soft = self.quest == Quest::Least && is_measured;
         for &Met { ray, span } in &bundle.met {
             let (start, state) = (&bundle.starts[ray as usize], &bundle.states[ray as usize]);
             if let (true, Occupancy::Outside(clearance)) = (is_soft, cell.occupancy())
@@ -399,13 +407,15 @@ impl<'f> Trip<'_, 'f, '_> {
             {
                 continue;
             }
-            self.march.push(&Start { id: ray, span, steps: state.steps, ..*start }, [state.factor, state.before]);
-        }
-        if self.march.is_empty() {
-            return 0;
+            let start = Start { id: ray, span, steps: state.steps, ..*start };
+            match is_measured {
+                true => self.march.push(&start, [state.factor, state.before]),
+                false => self.search.push(&start),
+            }
         }
         self.ends.clear();
         let evaluations = match is_soft {
+            _ if !is_measured => self.search.run(self.encloser, cell.part(), self.space.pace, self.ends),
             false => self.march.hard(self.field, cell.part(), self.space.pace, self.ends),
             true => self.march.soft(self.field, cell.part(), self.space.pace, self.ends),
         };

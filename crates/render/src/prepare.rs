@@ -37,11 +37,6 @@ pub(crate) const OCCLUSION_SAMPLES: usize = 5;
 pub enum PrepareError {
     /// The fields have faults.
     Fields(Vec<Diagnostic>),
-    /// Nothing is known about the scale of an object's field, so no step through it is safe.
-    Unmarchable {
-        /// Its name.
-        object: String,
-    },
     /// The camera shows nothing.
     Camera(CameraError),
     /// A light can't be used.
@@ -124,9 +119,8 @@ impl<'s> Renderer<'s> {
                 };
                 exact.push(Exact { ray, paint, structure });
             } else if analysis.extent != Extent::Empty {
-                let safe = safe_scale(&analysis.contract)
-                    .ok_or_else(|| PrepareError::Unmarchable { object: object.name.clone() })?;
-                scale = scale.min(safe);
+                // What has no scale is searched by intervals instead.
+                scale = scale.min(safe_scale(&analysis.contract).unwrap_or(f64::INFINITY));
                 bounds = hull(bounds, analysis.extent);
                 marched.push(index);
             }
@@ -159,7 +153,7 @@ impl<'s> Renderer<'s> {
             marched: structure,
             paints,
             is_uniform,
-            scale,
+            scale: if scale.is_finite() { scale } else { 1.0 },
             bounds,
             exact,
             everything: (!is_all_marched).then_some(everything),
@@ -305,7 +299,7 @@ impl<'r> Frame<'r> {
         };
         let region = bounds.unwrap_or_else(|| {
             // Where a ray can get to from what the camera sees.
-            let reach = DVec3::splat(2.0 * scene.tracing.max_distance + camera.eye.distance(camera.target));
+            let reach = DVec3::splat(2.0 * scene.tracer.max_distance + camera.eye.distance(camera.target));
             Aabb { min: camera.eye - reach, max: camera.eye + reach }
         });
         Ok(Self {
@@ -373,9 +367,6 @@ impl fmt::Display for PrepareError {
                     diagnostic.fmt(f)?;
                 }
                 Ok(())
-            }
-            Self::Unmarchable { object } => {
-                write!(f, "the field of `{object}` has no known scale, so no step along a ray is safe")
             }
             Self::Camera(fault) => fault.fmt(f),
             Self::Light { index, fault } => write!(f, "light {index}: {fault}"),

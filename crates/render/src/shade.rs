@@ -153,14 +153,15 @@ impl Tracer<'_> {
                 sharpness: sharpness.unwrap_or(1.0),
             });
         }
-        let Some(field) = &mut self.marched else { return };
+        let (Some(field), Some(encloser)) = (&mut self.marched, &mut self.encloser) else { return };
         let space = frame.space().expect("what is marched has cells");
         let quest = match lamp.dimming {
             Dimming::None | Dimming::Hard => Quest::Any,
             Dimming::Sharpness(_) | Dimming::Clearance(_) => Quest::Least,
         };
         self.ends.clear();
-        self.stats.evaluations += self.packet.travel(&space, quest, field, &mut self.splitter, &mut self.ends);
+        self.stats.evaluations +=
+            self.packet.travel(&space, quest, field, encloser, &mut self.splitter, &mut self.ends);
         for end in &self.ends {
             lit[end.id as usize].factor = end.factor;
             self.stats.steps += u64::from(end.steps);

@@ -10,7 +10,7 @@ use crate::prepare::{Frame, rounding};
 use crate::stats::Stats;
 use crate::vector::{Triple, add_scaled, dot, length, scaled};
 use crate::view::{Ray, clip};
-use freikugel_field::{Cell, Evaluator, Part, Points, Program, Shares, Splitter};
+use freikugel_field::{Cell, Encloser, Evaluator, Part, Points, Program, Shares, Splitter};
 use glam::DVec3;
 use std::ops::Range;
 
@@ -73,6 +73,7 @@ struct Landing<'f> {
 pub(crate) struct Tracer<'f> {
     pub(crate) frame: &'f Frame<'f>,
     pub(crate) marched: Option<Evaluator<'f>>,
+    pub(crate) encloser: Option<Encloser<'f>>,
     pub(crate) everything: Option<Evaluator<'f>>,
     exact: Vec<Evaluator<'f>>,
     pub(crate) packet: Packet<'f>,
@@ -103,6 +104,7 @@ impl<'f> Tracer<'f> {
         Self {
             frame,
             marched: frame.marched.as_ref().map(evaluator),
+            encloser: frame.marched.as_ref().map(|program| Encloser::new(program, frame.level)),
             everything: frame.everything.as_ref().map(evaluator),
             exact: frame.exact.iter().map(evaluator).collect(),
             packet: Packet::default(),
@@ -193,13 +195,13 @@ impl<'f> Tracer<'f> {
     /// as near as that. The gradient tells: such rays go on with a tolerance that fits the slope they saw.
     fn land(&mut self) {
         self.landings.clear();
-        let Some(field) = &mut self.marched else { return };
+        let (Some(field), Some(encloser)) = (&mut self.marched, &mut self.encloser) else { return };
         let pace = self.frame.pace;
         let space = self.frame.space().expect("what is marched has cells");
         loop {
             self.ends.clear();
             self.stats.evaluations +=
-                self.packet.travel(&space, Quest::First, field, &mut self.splitter, &mut self.ends);
+                self.packet.travel(&space, Quest::First, field, encloser, &mut self.splitter, &mut self.ends);
             self.cloud.clear();
             self.ends.retain(|end| {
                 let ray = &mut self.rays[end.id as usize];

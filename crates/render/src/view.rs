@@ -70,7 +70,7 @@ impl View {
                 if !(fov > 0.0 && fov < PI) {
                     return Err(CameraError::FieldOfView);
                 }
-                let tangent = (fov / 2.0).tan();
+                let tangent = libm::tan(fov / 2.0);
                 let half = match axis {
                     FovAxis::Vertical => DVec2::new(tangent * aspect, tangent),
                     FovAxis::Horizontal => DVec2::new(tangent, tangent / aspect),

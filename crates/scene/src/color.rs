@@ -42,7 +42,7 @@ pub fn from_hex(text: &str) -> Option<Rgb> {
 
 /// The linear light of an sRGB value in `[0, 1]` (IEC 61966-2-1).
 pub fn linear(encoded: f64) -> f64 {
-    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+    if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
 }
 
 /// The notation of colours.

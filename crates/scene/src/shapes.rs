@@ -4,8 +4,10 @@
 //! on stand under `shape` or `shapes`. A function of many shapes that needs no parameters may have the list for a value.
 //! Which functions there are, nothing here knows but [`freikugel_field::shapes::ALL`].
 
+mod formula;
 mod param;
 
+use self::formula::FormulaNotation;
 use crate::notation::Notation;
 use crate::object::MaterialNotation;
 use crate::reader::{Entries, NodePlace, Reader, name_span, span};
@@ -24,6 +26,9 @@ const CHILD: &str = "shape";
 
 /// The key of the shapes that a function works on.
 const CHILDREN: &str = "shapes";
+
+/// The key of the formula that a function computes.
+const FORMULA: &str = "f";
 
 /// The key of the material that a function paints with.
 const MATERIAL: &str = "material";
@@ -133,8 +138,10 @@ fn call(reader: &mut Reader, shape: &'static Shape, index: usize, value: &Writte
     let about = &shape.about;
     let arity = shape.arity();
     let is_paint = matches!(shape.kind, Kind::Paint);
+    let is_formula = matches!(shape.kind, Kind::Formula);
     let mut keys: Vec<&'static str> = about.params.iter().map(|param| param.name).collect();
     keys.extend(is_paint.then_some(MATERIAL));
+    keys.extend(is_formula.then_some(FORMULA));
     keys.extend(child_key(arity));
     let what = quote(about.name);
 
@@ -147,6 +154,11 @@ fn call(reader: &mut Reader, shape: &'static Shape, index: usize, value: &Writte
         }
         let args = missing.is_empty().then(Vec::new);
         return finish(reader, shape, index, args, Some(None), children);
+    }
+    if let (true, Written::StringLit(_)) = (is_formula, value) {
+        let expression = FormulaNotation.read(reader, value)?;
+        let field = finish(reader, shape, index, Some(Vec::new()), Some(None), Vec::new())?;
+        return Some(field.with_formula(Ok(expression)));
     }
     if !matches!(value, Written::Object(_)) {
         let wanted = if keys == [CHILDREN] { "a list of shapes" } else { "an object with its parameters" };
@@ -172,6 +184,12 @@ fn call(reader: &mut Reader, shape: &'static Shape, index: usize, value: &Writte
             None => vec![None],
         },
     };
+    if is_formula {
+        entries.require(reader, FORMULA, "the formula");
+        let expression = entries.read(reader, FORMULA, &FormulaNotation);
+        let field = finish(reader, shape, index, args, material, children)?;
+        return Some(field.with_formula(Ok(expression?)));
+    }
     finish(reader, shape, index, args, material, children)
 }
 
@@ -252,6 +270,10 @@ fn function_schema(shape: &'static Shape, definitions: &mut Definitions) -> Json
         let name = MaterialNotation.schema(definitions);
         object.key(MATERIAL, "The name of a material.", name, Need::Required);
     }
+    if matches!(shape.kind, Kind::Formula) {
+        let text = FormulaNotation.schema(definitions);
+        object.key(FORMULA, "The formula, in x, y and z.", text, Need::Required);
+    }
     // A shape's definition is under construction here; this only names it.
     let child = || json!({ "$ref": "#/$defs/shape" });
     let several = || json!({ "type": "array", "items": child(), "minItems": 1 });
@@ -263,6 +285,9 @@ fn function_schema(shape: &'static Shape, definitions: &mut Definitions) -> Json
     let is_plain = about.params.iter().all(|param| param.default.is_some());
     let mut schema = match shape.arity() {
         Arity::Many if is_plain => json!({ "anyOf": [several(), object.finish()] }),
+        _ if matches!(shape.kind, Kind::Formula) => {
+            json!({ "anyOf": [FormulaNotation.schema(definitions), object.finish()] })
+        }
         _ => object.finish(),
     };
     schema["description"] = about.summary.into();

@@ -9,6 +9,7 @@ pub(super) struct Builder {
     terms: Vec<Term>,
     facts: Vec<Facts>,
     known: HashMap<Key, TermId>,
+    is_faulty: bool,
 }
 
 /// What is known of a term's values.
@@ -51,9 +52,9 @@ impl Builder {
         self.terms[id.index()]
     }
 
-    /// Whether the term depends on no coordinate.
-    pub(super) fn is_constant(&self, id: TermId) -> bool {
-        self.facts[id.index()].axes == 0
+    /// Whether one of the terms divides by the number 0 or is a constant that is no finite number.
+    pub(super) fn is_faulty(&self) -> bool {
+        self.is_faulty
     }
 
     /// Whether the term depends on coordinate `axis`.
@@ -95,7 +96,13 @@ impl Builder {
             return id;
         }
         let id = TermId(self.terms.len() as u32);
-        self.facts.push(self.facts_of(term));
+        let facts = self.facts_of(term);
+        self.is_faulty |= match term {
+            Term::Literal(_) => false,
+            Term::Binary(Binary::Div, _, b) if self.number(b) == Some(0.0) => true,
+            _ => facts.axes == 0,
+        };
+        self.facts.push(facts);
         self.terms.push(term);
         self.known.insert(key, id);
         id

@@ -102,7 +102,8 @@ fn binary_slope(b: &mut Builder, op: Binary, id: TermId, [p, q]: [TermId; 2], [d
     match op {
         Binary::Add | Binary::Sub => b.binary(op, dp, dq),
         Binary::Mul => {
-            let (left, right) = (times(b, q, dp), times(b, p, dq));
+            let (left, right) = (b.binary(Binary::Mul, dp, q), times(b, p, dq));
+            let left = if b.number(dp) == Some(0.0) { dp } else { left };
             b.binary(Binary::Add, left, right)
         }
         Binary::Div => {
@@ -126,7 +127,9 @@ fn binary_slope(b: &mut Builder, op: Binary, id: TermId, [p, q]: [TermId; 2], [d
             let by_base = times(b, by_base, dp);
             let ln = b.unary(Unary::Ln, p);
             let by_exponent = b.binary(Binary::Mul, id, ln);
-            let by_exponent = times(b, by_exponent, dq);
+            // By the exponent, it counts as 0 where the base is not positive, as a constant one may be.
+            let is_positive = b.number(p).is_none_or(|base| base > 0.0);
+            let by_exponent = if is_positive { times(b, by_exponent, dq) } else { b.literal(0.0) };
             b.binary(Binary::Add, by_base, by_exponent)
         }
         Binary::Atan2 => {

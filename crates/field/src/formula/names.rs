@@ -186,6 +186,9 @@ fn cosh(b: &mut Builder, args: &[TermId]) -> TermId {
 
 /// `1 - 2 / (exp(2a) + 1)`: the argument occurs once, and an exponential that overflows does no harm.
 fn tanh(b: &mut Builder, args: &[TermId]) -> TermId {
+    if let Some(number) = b.number(args[0]) {
+        return b.literal(libm::tanh(number));
+    }
     let (one, two) = (b.literal(1.0), b.literal(2.0));
     let twice = b.binary(Binary::Mul, args[0], two);
     let exp = b.unary(Unary::Exp, twice);

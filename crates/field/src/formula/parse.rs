@@ -7,7 +7,7 @@ use super::builder::Builder;
 use super::error::FormulaError;
 use super::names::{self, CONSTANTS, COORDINATES};
 use super::token::{EQUATION_HINT, Kind, Lexer, Token};
-use super::{Binary, Term, TermId, Unary};
+use super::{Binary, TermId, Unary};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -183,9 +183,9 @@ impl<'t> Parser<'t, '_> {
         Ok(result)
     }
 
-    /// The result of an operation, refused if it is a constant that is no number.
+    /// The result of an operation, refused if that divides by 0 or makes a constant that is no number.
     fn sound(&self, term: TermId, span: Range<usize>) -> Read<TermId> {
-        if self.builder.is_constant(term) && !matches!(self.builder.term(term), Term::Literal(_)) {
+        if self.builder.is_faulty() {
             let error = self.error(span, "this has no finite value");
             return Err(error.hint("for instance, 1/0 and sqrt(-1) have none"));
         }

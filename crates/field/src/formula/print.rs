@@ -177,8 +177,7 @@ impl Printer<'_> {
         match self.terms[id.index()] {
             Term::Input(axis) => vec![Text(COORDINATES[axis])],
             Term::Literal(number) => vec![Number(number)],
-            // A minus before a number would become its sign.
-            Term::Unary(Unary::Neg, a) if self.begins_with_number(a) => vec![Text("-"), term(a, Level::Atom)],
+            Term::Unary(Unary::Neg, a) if self.begins_with_sign(a) => vec![Text("-"), term(a, Level::Atom)],
             Term::Unary(Unary::Neg, a) => vec![Text("-"), term(a, Level::Product)],
             Term::Unary(Unary::Square, a) => vec![term(a, Level::Atom), Text("^2")],
             Term::Power(a, n) => vec![term(a, Level::Atom), Text("^"), Integer(n)],
@@ -204,17 +203,15 @@ impl Printer<'_> {
         }
     }
 
-    /// Whether the print of a product or quotient begins with a number.
-    fn begins_with_number(&self, mut id: TermId) -> bool {
+    /// Whether a minus before the print of a product or quotient would be taken for the sign of a part of it: of a number
+    /// or a difference.
+    fn begins_with_sign(&self, mut id: TermId) -> bool {
         loop {
-            match self.inline(id) {
-                Some(Term::Literal(_)) => return true,
-                Some(Term::Binary(Binary::Mul, a, b))
-                    if self.number_of(b).is_some() && self.level(a) != Level::Product =>
-                {
-                    return true;
-                }
-                Some(Term::Binary(Binary::Mul | Binary::Div, a, _)) => id = a,
+            id = match self.inline(id) {
+                Some(Term::Literal(_) | Term::Binary(Binary::Sub, ..)) => return true,
+                Some(Term::Binary(Binary::Add, _, b)) => return self.number_of(b).is_some(),
+                Some(Term::Binary(Binary::Mul, _, b)) if self.number_of(b).is_some() => return true,
+                Some(Term::Binary(Binary::Mul | Binary::Div, a, _)) => a,
                 _ => return false,
             }
         }

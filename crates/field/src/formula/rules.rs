@@ -1,7 +1,7 @@
 //! Rules of simplification.
 //!
 //! A rule looks at an operation and its operands' terms and gives something cheaper or, in intervals, tighter instead. The
-//! rules keep three promises. They never change a value beyond rounding. They leave the set alone where there is a value,
+//! rules keep three promises. They change values by no more than rounding any of their parts does. They leave the set alone where there is a value,
 //! isolated points excepted: `sqrt(x) - sqrt(x)` is not 0. And a term that no rule applied to is made again by the same
 //! call, so that a printed formula is read back as it was.
 
@@ -321,6 +321,10 @@ impl Builder {
             (_, Term::Unary(Unary::Neg, q)) => {
                 let quotient = self.quotient(a, q);
                 self.negative(quotient)
+            }
+            (Term::Binary(Binary::Div, p, q), _) => {
+                let divisor = self.binary(Binary::Mul, q, b);
+                self.quotient(p, divisor)
             }
             _ => self.push(Term::Binary(Binary::Div, a, b)),
         }

@@ -17,20 +17,22 @@ pub struct Dual<T, const N: usize = 3> {
     pub gradient: [T; N],
 }
 
-impl<T: Scalar, const N: usize> Dual<T, N> {
-    /// A value that does not depend on the inputs.
-    #[inline(always)]
-    pub fn independent(value: T) -> Self {
-        let zero = value.lift(0.0);
-        Self { value, gradient: [zero; N] }
-    }
-
+impl<T: Scalar> Dual<T> {
     /// The input number `axis`, at `value`.
     #[inline(always)]
     pub fn input(value: T, axis: usize) -> Self {
         let mut dual = Self::independent(value);
         dual.gradient[axis] = value.lift(1.0);
         dual
+    }
+}
+
+impl<T: Scalar, const N: usize> Dual<T, N> {
+    /// A value that does not depend on the inputs.
+    #[inline(always)]
+    pub fn independent(value: T) -> Self {
+        let zero = value.lift(0.0);
+        Self { value, gradient: [zero; N] }
     }
 
     #[inline(always)]
@@ -212,6 +214,25 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
         )
     }
 
+    /// As the default, but with the value's own minimum, which is tighter for intervals.
+    #[inline(always)]
+    fn min(self, rhs: Self) -> Self {
+        let value = self.value.min(rhs.value);
+        Self { value, ..Self::select(self.lt(rhs), self, rhs) }
+    }
+
+    #[inline(always)]
+    fn max(self, rhs: Self) -> Self {
+        let value = self.value.max(rhs.value);
+        Self { value, ..Self::select(rhs.lt(self), self, rhs) }
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        let value = self.value.abs();
+        Self { value, ..Self::select(self.lt(self.lift(0.0)), -self, self) }
+    }
+
     #[inline(always)]
     fn any(mask: T::Mask) -> bool {
         T::any(mask)
@@ -268,6 +289,13 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
             #[inline(always)]
             |dab, dc| dab + w * dc,
         )
+    }
+
+    #[inline(always)]
+    fn less(self, rhs: Self) -> Self {
+        let value = self.value.less(rhs.value);
+        let slope = value.step_slope();
+        Self { value, gradient: [slope; N] }
     }
 
     #[inline(always)]

@@ -43,13 +43,13 @@ impl Primitive for Cone {
 
     fn prepare(args: &[f64]) -> Vec<f64> {
         let &[bottom, top, height, _axis] = args else { unreachable!("four numbers") };
-        let slant = height.hypot(top - bottom);
+        let slant = libm::hypot(height, top - bottom);
         vec![bottom, top, height / 2.0, height / slant, (bottom - top) / slant, 1.0 / slant]
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
         let &[bottom, top, height, _axis] = args else { unreachable!("four numbers") };
-        let across = direction.x.hypot(direction.y);
+        let across = libm::hypot(direction.x, direction.y);
         let rise = direction.z * height / 2.0;
         (top * across + rise).max(bottom * across - rise) + level * direction.length()
     }

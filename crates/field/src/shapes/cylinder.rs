@@ -54,7 +54,7 @@ impl Primitive for Cylinder {
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
         let &[radius, height, round, _axis] = args else { unreachable!("four numbers") };
-        let across = direction.x.hypot(direction.y);
+        let across = libm::hypot(direction.x, direction.y);
         (radius - round) * across + (height / 2.0 - round) * direction.z.abs() + (round + level) * direction.length()
     }
 

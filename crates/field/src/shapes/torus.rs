@@ -34,7 +34,7 @@ impl Primitive for Torus {
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
-        args[0] * direction.x.hypot(direction.y) + (args[1] + level) * direction.length()
+        args[0] * libm::hypot(direction.x, direction.y) + (args[1] + level) * direction.length()
     }
 
     #[inline(always)]

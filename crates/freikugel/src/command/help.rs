@@ -2,7 +2,7 @@
 
 use super::{Failure, print};
 use clap::CommandFactory;
-use freikugel::field::{Arity, Param, ParamKind, Shape, shapes};
+use freikugel::field::{Arity, Kind, Param, ParamKind, Shape, shapes};
 use std::fmt::Write;
 
 /// Explain a command, or the shapes.
@@ -57,6 +57,9 @@ fn describe(shape: &Shape) -> String {
         let _ = writeln!(text, "  {:16} {}", param.name, param.about);
         let _ = writeln!(text, "  {:16} {}", "", values(param));
     }
+    if matches!(shape.kind, Kind::Formula) {
+        text.push_str("  f                The formula, in x, y and z. It may stand alone as a text.\n");
+    }
     match shape.arity() {
         Arity::None => {}
         Arity::One => text.push_str("  shape            The shape that is changed.\n"),
@@ -90,11 +93,13 @@ fn values(param: &Param) -> String {
         ParamKind::Factors => "[x, y, z], none of them 0".into(),
         ParamKind::Angles => "[x, y, z] in degrees".into(),
         ParamKind::Quaternion => "[x, y, z, w]".into(),
+        ParamKind::Region => "{ \"sphere\": radius } or { \"box\": size }".into(),
         ParamKind::HalfSpaces => "a list of [x, y, z, d]".into(),
     };
     let default = match (param.default, param.kind) {
         (None, _) => "required".to_owned(),
         (Some(numbers), ParamKind::Choice(names)) => format!("{} if left out", names[numbers[0] as usize]),
+        (Some(_), ParamKind::Region) => "everywhere if left out".to_owned(),
         (Some(numbers), ParamKind::Flag) => format!("{} if left out", numbers[0] != 0.0),
         (Some(numbers), _) => {
             let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();

@@ -43,6 +43,9 @@ fn tree(field: &Field, depth: usize, scene: &Scene, text: &mut String) {
     let node = field.node();
     let about = &node.shape.about;
     let _ = write!(text, "{:indent$}{}", "", about.name, indent = 2 * depth);
+    if let Some(Ok(formula)) = &node.formula {
+        let _ = write!(text, " f={:?}", formula.text());
+    }
     for (index, param) in about.params.iter().enumerate() {
         let _ = write!(text, " {}={}", param.name, written(param.kind, &node.argument(index)));
     }

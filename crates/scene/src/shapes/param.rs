@@ -1,7 +1,7 @@
 //! Parameters of shapes: how each [`ParamKind`] is written.
 
 use crate::notation::{Notation, direction_schema, index_of, named_direction, numbers_schema, tidy, tidy_degrees};
-use crate::reader::Reader;
+use crate::reader::{Reader, span};
 use crate::schema::Definitions;
 use crate::suggest::listed;
 use crate::syntax::Written;
@@ -38,6 +38,7 @@ impl Notation<Vec<f64>> for ParamKind {
             }
             (Self::Angles, _) => reader.numbers(value, ["x", "y", "z"])?.map(f64::to_radians).to_vec(),
             (Self::Quaternion, _) => reader.numbers(value, ["x", "y", "z", "w"])?.to_vec(),
+            (Self::Region, _) => region(reader, value)?,
             (Self::HalfSpaces, _) => half_spaces(reader, value)?,
         };
         let fault = if numbers.is_empty() { Some(NO_ENTRIES.into()) } else { ParamKind::fault(*self, &numbers) };
@@ -55,6 +56,11 @@ impl Notation<Vec<f64>> for ParamKind {
                 name.parse().map_or_else(|_| json!(name), tidy)
             }
             Self::Flag => json!(first != 0.0),
+            Self::Region => match *value.as_slice() {
+                [1.0, radius, ..] => json!({ "sphere": tidy(radius) }),
+                [2.0, ref size @ ..] => json!({ "box": list(size) }),
+                _ => return None,
+            },
             Self::HalfSpaces => value.chunks(4).map(list).collect(),
             Self::Vector | Self::Direction | Self::Size | Self::Factors | Self::Quaternion => list(value),
         })
@@ -80,6 +86,16 @@ impl Notation<Vec<f64>> for ParamKind {
             Self::Size => json!({ "anyOf": [length(), three(length())] }),
             Self::Factors => three(factor()),
             Self::Quaternion => numbers_schema(4),
+            Self::Region => {
+                let one = |name: &str, value: Json| {
+                    json!({ "type": "object", "properties": { name: value }, "required": [name],
+                        "additionalProperties": false })
+                };
+                json!({ "anyOf": [
+                    one("sphere", length()),
+                    one("box", json!({ "anyOf": [length(), three(length())] })),
+                ] })
+            }
             Self::HalfSpaces => {
                 json!({ "type": "array", "items": numbers_schema(4), "minItems": 1 })
             }
@@ -110,6 +126,28 @@ fn choice(reader: &mut Reader, names: &'static [&'static str], value: &Written<'
 /// Whether all names of a choice are numbers, which may then stand without quotes.
 fn are_numbers(names: &[&str]) -> bool {
     names.iter().all(|name| name.parse::<f64>().is_ok())
+}
+
+/// A sphere or a box around the origin.
+fn region(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
+    let hint = r#"for instance { "sphere": 2 } or { "box": [2, 2, 1] }"#;
+    if !matches!(value, Written::Object(_)) {
+        reader.mistyped(value, "a sphere or a box", Some(hint.into()));
+        return None;
+    }
+    let entries = reader.entries(value, &["sphere", "box"])?;
+    match (entries.get("sphere"), entries.get("box")) {
+        (Some(radius), None) => Some(vec![1.0, reader.number(radius)?, 0.0, 0.0]),
+        (None, Some(size)) => {
+            let mut numbers = vec![2.0];
+            numbers.extend(ParamKind::Size.read(reader, size)?);
+            Some(numbers)
+        }
+        _ => {
+            reader.error(span(value), "either a sphere or a box must stand here", Some(hint.into()));
+            None
+        }
+    }
 }
 
 fn half_spaces(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {

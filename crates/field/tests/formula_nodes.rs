@@ -1,0 +1,128 @@
+//! Formulas as parts of fields: their values, cuts and enclosures.
+
+mod common;
+
+use common::Random;
+use freikugel_field::shapes::*;
+use freikugel_field::{
+    Bounds, Encloser, Evaluator, Extent, Field, Formula, Interval, Points, Stretches, Structure, analyse, simd,
+};
+use glam::{DQuat, DVec3};
+
+/// Formulas of all sorts, defined and bounded where they are tested.
+const TEXTS: [&str; 7] = [
+    "x^2 + 2y^2 + z^2 - 0.6",
+    "x^4 + y^4 + z^4 - (x^2 + y^2 + z^2) / 2 + x*y / 5 - 0.1",
+    "sin(3x) * cos(3y) + sin(3y) * cos(3z) + sin(3z) * cos(3x)",
+    "max(abs(x) - 0.5, min(y, exp(z) - 1.2), abs(abs(z - 0.3) - 1) - 0.7)",
+    "floor(2x) / 2 + ln(4 + y) - sqrt(abs(z)) + atan2(y, x + 4)",
+    "1 / (4 + x) - tan(z / 4) * acos(y / 9) + asin(x / 9) - pow(4 + y, 1.3) / 5 + 0.2",
+    "x^3 - 3x*y^2 + z^-2 / 9 + step(x, y) / 3",
+];
+
+/// The distance from a box, by its definition.
+fn box_distance(p: DVec3, size: DVec3) -> f64 {
+    let q = p.abs() - size / 2.0;
+    q.max(DVec3::ZERO).length() + q.max_element().min(0.0)
+}
+
+#[test]
+fn a_node_computes_its_formula_and_its_cut() {
+    let turn = DQuat::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 40f64.to_radians());
+    let shift = DVec3::new(0.2, -0.3, 0.4);
+    let size = DVec3::new(2.0, 3.0, 2.5);
+    let mut random = Random::new(1);
+    for text in TEXTS {
+        let expression = Formula::parse(text).expect("a formula");
+        let placed = |field: Field| field.rotate([1.0, 2.0, 3.0], 40.0).at(shift.to_array());
+        let fields = [
+            placed(formula(text).into()),
+            placed(formula(text).within_sphere(1.5).into()),
+            placed(formula(text).within_box(size).open().into()),
+            placed(formula(text).sheet().into()),
+        ];
+        for p in (0..40).map(|_| random.point(2.0)) {
+            let local = turn.inverse() * (p - shift);
+            let value = expression.value(local.to_array());
+            let expected =
+                [value, value.max(local.length() - 1.5), value.abs().max(box_distance(local, size)), value.abs()];
+            for (field, expected) in fields.iter().zip(expected) {
+                let program =
+                    Structure::compile(std::slice::from_ref(field)).expect("sound").program(DVec3::new(0.5, 0.1, -0.2));
+                let near = |value: f64, tolerance: f64| (value - expected).abs() <= tolerance * (1.0 + expected.abs());
+                let is_step = text.contains("floor") || text.contains("step");
+                let exact = program.value(p);
+                assert!(near(exact, 1e-9) || is_step, "{text} at {p}: {exact}, not {expected}");
+                let [x, y, z] = (p - program.origin()).as_vec3().to_array().map(|c| [c]);
+                let mut single = [0.0];
+                Evaluator::new(&program).values(Points { x: &x, y: &y, z: &z }, &mut single);
+                assert!(near(single[0].into(), 1e-4) || is_step, "{text} at {p}: {}, not {expected}", single[0]);
+                let around = program.interval(p.to_array().map(|c| Interval::new(c - 0.01, c + 0.01)));
+                assert!(around.contains(exact), "{text} at {p}: {exact} not in {around:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn stretches_are_enclosed() {
+    const SAMPLES: usize = 40;
+    let mut random = Random::new(2);
+    for text in TEXTS {
+        let field = formula(text).within_sphere(1.6).rotate([1.0, 2.0, 3.0], 40.0) | sphere(0.4).at([0.9, 0.2, 0.1]);
+        let program = Structure::compile(&[field]).expect("sound").program(DVec3::new(0.5, 0.1, -0.2));
+        for level in simd::available() {
+            let mut encloser = Encloser::new(&program, level);
+            for _ in 0..60 {
+                let (origin, direction) = (random.point(2.0).as_vec3(), random.direction().as_vec3());
+                let near = random.range(0.0, 1.0) as f32;
+                let far = near + 10.0f64.powf(random.range(-4.0, 0.0)) as f32;
+                let (o, d) = (origin.to_array().map(|c| [c]), direction.to_array().map(|c| [c]));
+                let stretches = Stretches {
+                    origin: o.each_ref().map(|c| c.as_slice()),
+                    direction: d.each_ref().map(|c| c.as_slice()),
+                    near: &[near],
+                    far: &[far],
+                };
+                let (mut lo, mut hi, mut least, mut most) = ([0.0], [0.0], [0.0], [0.0]);
+                let whole = program.whole();
+                let slope = Bounds { lo: &mut least, hi: &mut most };
+                encloser.jets(whole, &stretches, Bounds { lo: &mut lo, hi: &mut hi }, slope);
+                let at = |i: usize| {
+                    let t = f64::from(near) + f64::from(far - near) * i as f64 / SAMPLES as f64;
+                    (t, program.value(program.origin() + origin.as_dvec3() + direction.as_dvec3() * t))
+                };
+                let mut before = at(0);
+                for (t, value) in (1..=SAMPLES).map(at) {
+                    assert!(f64::from(lo[0]) <= value && value <= f64::from(hi[0]), "{text}: {value} in {lo:?} {hi:?}");
+                    // By the mean value theorem; a difference of values has their rounding errors.
+                    let rounding = 1e-12;
+                    let (rise, run) = (value - before.1, t - before.0);
+                    assert!(
+                        f64::from(least[0]) * run <= rise + rounding && rise - rounding <= f64::from(most[0]) * run,
+                        "{text}: slope {} in {least:?} {most:?}",
+                        rise / run
+                    );
+                    before = (t, value);
+                }
+                let (mut low, mut high) = ([0.0], [0.0]);
+                encloser.values(whole, &stretches, Bounds { lo: &mut low, hi: &mut high });
+                assert_eq!((low, high), (lo, hi), "{text}: with and without derivatives");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_cut_bounds_the_extent_and_a_fault_is_reported() {
+    let cut: Field = formula("x + y").within_box([1.0, 2.0, 3.0]).at([1.0, 0.0, 0.0]);
+    let Extent::Finite(aabb) = analyse(&cut).0.expect("sound").extent else { panic!("a cut formula is finite") };
+    assert_eq!((aabb.min, aabb.max), (DVec3::new(0.5, -1.0, -1.5), DVec3::new(1.5, 1.0, 1.5)));
+    let whole: Field = formula("x + y").into();
+    assert_eq!(analyse(&whole).0.expect("sound").extent, Extent::Unbounded);
+    let faulty: Field = formula("x + * y").into();
+    let (analysis, diagnostics) = analyse(&faulty);
+    assert!(analysis.is_none() && diagnostics[0].message.contains("column"), "{diagnostics:?}");
+    let sheet: Field = formula("x").open().within_sphere(1.0).into();
+    assert!(!analyse(&sheet).0.expect("sound").contract.signed);
+}
