@@ -30,6 +30,9 @@ pub(crate) fn compile(objects: &[Field]) -> (Code, Steps, Vec<f64>) {
     (code, Steps { list: compiler.steps, result }, compiler.values)
 }
 
+/// Makes the constants of a formula of its parameters.
+type Prepare = fn(&[f64]) -> Vec<f64>;
+
 /// A tree whose numbers have got their slots.
 struct Slotted<'f> {
     node: &'f Node,
@@ -197,7 +200,7 @@ impl Compiler {
         let args = &tree.args;
         self.fixed.extend([args.start, args.start + formula::REGION, args.end - 1]);
         let size = args.start + formula::REGION + 1..args.end - 1;
-        let cut: Option<(&Shape, fn(&[f64]) -> Vec<f64>)> = match parts.region {
+        let cut: Option<(&Shape, Prepare)> = match parts.region {
             formula::Region::Everywhere => None,
             formula::Region::Sphere { .. } => Some((&shapes::SPHERE, |size| size[..1].to_vec())),
             formula::Region::Box { .. } => {

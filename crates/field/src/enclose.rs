@@ -34,13 +34,8 @@ impl Stretches<'_> {
     }
 }
 
-/// Lower and upper bounds.
-#[derive(Debug)]
-#[allow(missing_docs, reason = "described above")]
-pub struct Bounds<'a> {
-    pub lo: &'a mut [f32],
-    pub hi: &'a mut [f32],
-}
+/// Places for lower and for upper bounds.
+pub type Bounds<'a> = [&'a mut [f32]; 2];
 
 /// Encloses a program. The scratch memory of one thread.
 pub struct Encloser<'p> {
@@ -66,18 +61,18 @@ impl<'p> Encloser<'p> {
     ///
     /// # Panics
     /// If a result has not as many places as there are stretches.
-    pub fn values(&mut self, part: &Part, stretches: &Stretches<'_>, value: Bounds<'_>) {
+    pub fn values(&mut self, part: &Part, stretches: &Stretches<'_>, [lo, hi]: Bounds<'_>) {
         let count = stretches.count();
         let listing = part.listing();
         let Some(result) = listing.result else {
-            value.lo.fill(f32::INFINITY);
-            return value.hi.fill(f32::INFINITY);
+            lo.fill(f32::INFINITY);
+            return hi.fill(f32::INFINITY);
         };
         self.ranges.prepare(listing);
         for batch in (0..count).step_by(BATCH).map(|start| start..(start + BATCH).min(count)) {
             let lanes = load(&mut self.ranges, stretches, batch.clone());
             self.ranges.run(self.program, &listing.ops, self.level, lanes);
-            for (out, from) in [&mut *value.lo, &mut *value.hi].into_iter().zip(self.ranges.value(result)) {
+            for (out, from) in [&mut *lo, &mut *hi].into_iter().zip(self.ranges.value(result)) {
                 out[batch.clone()].copy_from_slice(&from.0[..batch.len()]);
             }
         }
@@ -87,14 +82,14 @@ impl<'p> Encloser<'p> {
     ///
     /// # Panics
     /// If a result has not as many places as there are stretches.
-    pub fn jets(&mut self, part: &Part, stretches: &Stretches<'_>, value: Bounds<'_>, slope: Bounds<'_>) {
+    pub fn jets(&mut self, part: &Part, stretches: &Stretches<'_>, [lo, hi]: Bounds<'_>, [least, most]: Bounds<'_>) {
         let count = stretches.count();
         let listing = part.listing();
         let Some(result) = listing.result else {
-            value.lo.fill(f32::INFINITY);
-            value.hi.fill(f32::INFINITY);
-            slope.lo.fill(0.0);
-            return slope.hi.fill(0.0);
+            lo.fill(f32::INFINITY);
+            hi.fill(f32::INFINITY);
+            least.fill(0.0);
+            return most.fill(0.0);
         };
         self.jets.prepare(listing);
         for batch in (0..count).step_by(BATCH).map(|start| start..(start + BATCH).min(count)) {
@@ -103,11 +98,11 @@ impl<'p> Encloser<'p> {
                 let number = &mut self.jets.points[4 * axis..4 * axis + 4];
                 number[2].0[..batch.len()].copy_from_slice(&stretches.direction[axis][batch.clone()]);
                 number[2].0[batch.len()..lanes].fill(0.0);
-                let [.., least, most] = number else { unreachable!("four components") };
-                most.0[..lanes].copy_from_slice(&least.0[..lanes]);
+                let [.., from, to] = number else { unreachable!("four components") };
+                to.0[..lanes].copy_from_slice(&from.0[..lanes]);
             }
             self.jets.run(self.program, &listing.ops, self.level, lanes);
-            let outs = [&mut *value.lo, &mut *value.hi, &mut *slope.lo, &mut *slope.hi];
+            let outs = [&mut *lo, &mut *hi, &mut *least, &mut *most];
             for (out, from) in outs.into_iter().zip(self.jets.value(result)) {
                 out[batch.clone()].copy_from_slice(&from.0[..batch.len()]);
             }

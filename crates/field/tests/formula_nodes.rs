@@ -5,7 +5,7 @@ mod common;
 use common::Random;
 use freikugel_field::shapes::*;
 use freikugel_field::{
-    Bounds, Encloser, Evaluator, Extent, Field, Formula, Interval, Points, Stretches, Structure, analyse, simd,
+    Encloser, Evaluator, Extent, Field, Formula, Interval, Points, Stretches, Structure, analyse, simd,
 };
 use glam::{DQuat, DVec3};
 
@@ -79,15 +79,14 @@ fn stretches_are_enclosed() {
                 let far = near + 10.0f64.powf(random.range(-4.0, 0.0)) as f32;
                 let (o, d) = (origin.to_array().map(|c| [c]), direction.to_array().map(|c| [c]));
                 let stretches = Stretches {
-                    origin: o.each_ref().map(|c| c.as_slice()),
-                    direction: d.each_ref().map(|c| c.as_slice()),
+                    origin: o.each_ref().map(<[f32; 1]>::as_slice),
+                    direction: d.each_ref().map(<[f32; 1]>::as_slice),
                     near: &[near],
                     far: &[far],
                 };
                 let (mut lo, mut hi, mut least, mut most) = ([0.0], [0.0], [0.0], [0.0]);
                 let whole = program.whole();
-                let slope = Bounds { lo: &mut least, hi: &mut most };
-                encloser.jets(whole, &stretches, Bounds { lo: &mut lo, hi: &mut hi }, slope);
+                encloser.jets(whole, &stretches, [&mut lo, &mut hi], [&mut least, &mut most]);
                 let at = |i: usize| {
                     let t = f64::from(near) + f64::from(far - near) * i as f64 / SAMPLES as f64;
                     (t, program.value(program.origin() + origin.as_dvec3() + direction.as_dvec3() * t))
@@ -106,7 +105,7 @@ fn stretches_are_enclosed() {
                     before = (t, value);
                 }
                 let (mut low, mut high) = ([0.0], [0.0]);
-                encloser.values(whole, &stretches, Bounds { lo: &mut low, hi: &mut high });
+                encloser.values(whole, &stretches, [&mut low, &mut high]);
                 assert_eq!((low, high), (lo, hi), "{text}: with and without derivatives");
             }
         }

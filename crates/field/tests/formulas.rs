@@ -366,7 +366,7 @@ fn every_function_is_found_and_can_be_called() {
         let call = call.replace(" t)", " x)");
         assert!(Formula::parse(&call).is_ok(), "{call}");
     }
-    let names: std::collections::BTreeSet<_> = functions().map(|function| function.name()).collect();
+    let names: std::collections::BTreeSet<_> = functions().map(freikugel_field::formula::Function::name).collect();
     assert_eq!(names.len(), functions().count(), "two functions of one name");
 }
 

@@ -484,8 +484,8 @@ fn bounds(numbers: &[f32]) -> [f32; 2] {
         hi[lane] = if x > hi[lane] { x } else { hi[lane] };
     };
     for chunk in &mut chunks {
-        for lane in 0..LANES {
-            widen(lane, chunk[lane]);
+        for (lane, &x) in chunk.iter().enumerate() {
+            widen(lane, x);
         }
     }
     for &x in chunks.remainder() {

@@ -7,7 +7,7 @@
 //! hit. So no surface is missed, and the field's scale does not matter.
 
 use crate::march::{End, Fate, Pace, Start};
-use freikugel_field::{Bounds, Encloser, Part, Stretches};
+use freikugel_field::{Encloser, Part, Stretches};
 
 /// The part of a proven step that is taken: less than all of it by more than the rounding errors.
 const SAFE: f32 = 1.0 - 8.0 * f32::EPSILON;
@@ -106,10 +106,10 @@ impl Search {
         let (origin, direction) = (origin.each_ref().map(Vec::as_slice), direction.each_ref().map(Vec::as_slice));
         let points = Stretches { origin, direction, near, far: near };
         let [lo, hi] = here;
-        encloser.values(part, &points, Bounds { lo, hi });
+        encloser.values(part, &points, [lo, hi]);
         let stretches = Stretches { origin, direction, near, far };
         let ([lo, hi], [least, most]) = (ahead, slope);
-        encloser.jets(part, &stretches, Bounds { lo, hi }, Bounds { lo: least, hi: most });
+        encloser.jets(part, &stretches, [lo, hi], [least, most]);
     }
 
     fn judge(&self, ray: usize, pace: Pace) -> Verdict {

@@ -38,8 +38,11 @@ impl<T: Scalar, const N: usize> Dual<T, N> {
     #[inline(always)]
     fn map(self, value: T, f: impl Fn(T) -> T) -> Self {
         let mut gradient = self.gradient;
-        for derivative in &mut gradient {
-            *derivative = f(*derivative);
+        // No iterators here: their methods are not always inlined.
+        let mut input = 0;
+        while input < N {
+            gradient[input] = f(gradient[input]);
+            input += 1;
         }
         Self { value, gradient }
     }
@@ -47,8 +50,10 @@ impl<T: Scalar, const N: usize> Dual<T, N> {
     #[inline(always)]
     fn zip(self, rhs: Self, value: T, f: impl Fn(T, T) -> T) -> Self {
         let mut gradient = self.gradient;
-        for (derivative, other) in gradient.iter_mut().zip(rhs.gradient) {
-            *derivative = f(*derivative, other);
+        let mut input = 0;
+        while input < N {
+            gradient[input] = f(gradient[input], rhs.gradient[input]);
+            input += 1;
         }
         Self { value, gradient }
     }
