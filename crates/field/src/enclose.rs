@@ -67,6 +67,17 @@ pub struct ModelLanes<'a> {
     pub r: &'a [f32],
 }
 
+/// Taylor models of what a field's zeros are those of.
+#[derive(Clone, Copy)]
+pub struct ZeroLanes<'a> {
+    /// The first field.
+    pub first: ModelLanes<'a>,
+    /// Whether its absolute values count: there is a surface wherever its sign changes.
+    pub is_sheet: bool,
+    /// Another field; the larger one of both counts.
+    pub cut: Option<ModelLanes<'a>>,
+}
+
 /// How much longer than 1 a direction in single precision may be.
 const LONGEST: f32 = 1.0 + 4.0 * f32::EPSILON;
 
@@ -112,16 +123,18 @@ impl<'p> Encloser<'p> {
         }
     }
 
-    /// Taylor models along `count` stretches that `fill` writes, all of which lie where `part` holds; of its zeros' field, see
-    /// [`Part::is_sheet`].
+    /// Taylor models along `count` stretches that `fill` writes, all of which lie where `part` holds.
     ///
     /// # Panics
     /// If `count` is above [`BATCH`] or no multiple of [`WIDEST`].
-    pub fn models(&mut self, part: &Part, count: usize, fill: impl FnOnce(StretchLanes<'_>)) -> ModelLanes<'_> {
+    pub fn models(&mut self, part: &Part, count: usize, fill: impl FnOnce(StretchLanes<'_>)) -> ZeroLanes<'_> {
         assert!(count <= BATCH && count.is_multiple_of(WIDEST), "whole vectors, at most a batch");
-        let listing = part.zeros();
+        let zeros = part.zeros();
+        let listing = &zeros.listing;
         let Some(result) = listing.result else {
-            return ModelLanes { p: [&FAR.0[..count], &ZERO.0[..count], &ZERO.0[..count], &ZERO.0[..count], &ZERO.0[..count]], r: &ZERO.0[..count] };
+            let zero = &ZERO.0[..count];
+            let first = ModelLanes { p: [&FAR.0[..count], zero, zero, zero, zero], r: zero };
+            return ZeroLanes { first, is_sheet: false, cut: None };
         };
         let [ox, oy, oz, dx, dy, dz, middle, half] = self.lanes.each_mut().map(|block| &mut block.0[..count]);
         fill(StretchLanes { origin: [ox, oy, oz], direction: [dx, dy, dz], middle, half });
@@ -139,7 +152,8 @@ impl<'p> Encloser<'p> {
                     for blank in [a, b, c] {
                         blank.0[..count].fill(0.0);
                     }
-                    let (constant, slope, rest) = (&mut constant.0[..count], &mut slope.0[..count], &mut rest.0[..count]);
+                    let (constant, slope, rest) =
+                        (&mut constant.0[..count], &mut slope.0[..count], &mut rest.0[..count]);
                     for lane in 0..count {
                         let (o, d) = (origin[lane], direction[lane]);
                         constant[lane] = o + middle[lane] * d;
@@ -156,8 +170,11 @@ impl<'p> Encloser<'p> {
         }
         reach.speed.0[..count].fill(LONGEST);
         models.run(self.program, &listing.ops, self.level, count);
-        let [p0, p1, p2, p3, p4, r] = models.value(result) else { unreachable!("six components") };
-        ModelLanes { p: [p0, p1, p2, p3, p4].map(|term| &term.0[..count]), r: &r.0[..count] }
+        let model = |register| {
+            let [p0, p1, p2, p3, p4, r] = models.value(register) else { unreachable!("six components") };
+            ModelLanes { p: [p0, p1, p2, p3, p4].map(|term| &term.0[..count]), r: &r.0[..count] }
+        };
+        ZeroLanes { first: model(result), is_sheet: zeros.is_sheet, cut: zeros.cut.map(model) }
     }
 
     /// Bounds of the values on each stretch, and of the derivative along it.

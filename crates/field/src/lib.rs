@@ -53,7 +53,7 @@ pub use analysis::{Analysis, MAX_DEPTH, analyse, extent};
 pub use cells::{Cell, Cells, Occupancy, Splitter};
 pub use contract::{Aabb, Contract, Extent, Metric};
 pub use diagnostic::{Diagnostic, Severity};
-pub use enclose::{Bounds, Encloser, ModelLanes, StretchLanes, Stretches};
+pub use enclose::{Bounds, Encloser, ModelLanes, StretchLanes, Stretches, ZeroLanes};
 pub use evaluator::{Evaluator, Points, Shares};
 pub use field::{Axis, Field, Form, MaterialId, Node, Origin, Triple, Value};
 pub use formula::Formula;

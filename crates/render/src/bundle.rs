@@ -282,7 +282,8 @@ impl Bundle {
 
     /// How many rays of these rows meet the box tested last.
     pub(crate) fn count_meeting(&self, rows: &Rows) -> u64 {
-        let meet = |start| row(&self.leave, start).iter().map(|&leave| u64::from(leave > f32::NEG_INFINITY)).sum::<u64>();
+        let meet =
+            |start| row(&self.leave, start).iter().map(|&leave| u64::from(leave > f32::NEG_INFINITY)).sum::<u64>();
         rows.starts().map(meet).sum()
     }
 
@@ -382,7 +383,8 @@ fn bounds(block: &Block, count: usize) -> [f32; 2] {
     }
     let mut ends = [lo[0], hi[0]];
     for lane in 1..LANES {
-        ends = [if lo[lane] < ends[0] { lo[lane] } else { ends[0] }, if hi[lane] > ends[1] { hi[lane] } else { ends[1] }];
+        ends =
+            [if lo[lane] < ends[0] { lo[lane] } else { ends[0] }, if hi[lane] > ends[1] { hi[lane] } else { ends[1] }];
     }
     ends
 }

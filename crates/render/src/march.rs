@@ -84,15 +84,31 @@ impl End {
 
 /// Takes the rays of some rows along their stretches to the first surface, and notes those that met one in `place`. Returns
 /// how many field values the rays needed.
-pub(crate) fn hard(bundle: &mut Bundle, rows: Rows, field: &mut Evaluator<'_>, part: &Part, pace: Pace, place: u32) -> u64 {
-    let evaluations = march(bundle, rows, field, part, |bundle, start, values| advance_hard(bundle, start, values, pace));
+pub(crate) fn hard(
+    bundle: &mut Bundle,
+    rows: Rows,
+    field: &mut Evaluator<'_>,
+    part: &Part,
+    pace: Pace,
+    place: u32,
+) -> u64 {
+    let evaluations =
+        march(bundle, rows, field, part, |bundle, start, values| advance_hard(bundle, start, values, pace));
     collect(bundle, rows, place, false);
     evaluations
 }
 
 /// Takes the rays of some rows to the first surface, or to their end while looking for the least factor.
-pub(crate) fn soft(bundle: &mut Bundle, rows: Rows, field: &mut Evaluator<'_>, part: &Part, pace: Pace, place: u32) -> u64 {
-    let evaluations = march(bundle, rows, field, part, |bundle, start, values| advance_soft(bundle, start, values, pace));
+pub(crate) fn soft(
+    bundle: &mut Bundle,
+    rows: Rows,
+    field: &mut Evaluator<'_>,
+    part: &Part,
+    pace: Pace,
+    place: u32,
+) -> u64 {
+    let evaluations =
+        march(bundle, rows, field, part, |bundle, start, values| advance_soft(bundle, start, values, pace));
     collect(bundle, rows, place, true);
     evaluations
 }

@@ -15,7 +15,12 @@ use freikugel_field::{Cell, Cells, Encloser, Evaluator, Occupancy, Splitter};
 const SMALL_PART: usize = 8;
 
 /// A box this many pixels wide, as seen from the camera, is not split further: fewer rays meet it than fill the lanes.
-static CELL_PIXELS: std::sync::LazyLock<f32> = std::sync::LazyLock::new(|| std::env::var("CP").map_or(24.0, |v| v.parse().unwrap()));
+const CELL_PIXELS: f32 = 24.0;
+
+/// As [`SMALL_PART`], for parts with formulas, and as [`CELL_PIXELS`]: a model along a ray covers long stretches at once, so
+/// that large boxes are better unless they hold less of a long formula.
+const SMALL_FORMULA: usize = 96;
+const FORMULA_PIXELS: f32 = 96.0;
 
 /// What rays travel through.
 pub(crate) struct Space<'f> {
@@ -166,14 +171,14 @@ impl<'f> Trip<'_, 'f, '_> {
 
     fn is_small(&self, cell: &Cell) -> bool {
         let part = cell.part();
-        if cell.occupancy() != Occupancy::Surface || (part.size() <= SMALL_PART && part.is_measured()) {
+        if cell.occupancy() != Occupancy::Surface || part.size() <= if part.is_measured() { SMALL_PART } else { *SP } {
             return true;
         }
         let (middle, half, eye) = (cell.middle(), cell.half(), self.space.eye);
         let gap = |axis: usize| ((middle[axis] - eye[axis]).abs() - half[axis]).max(0.0);
         let distance = length([gap(0), gap(1), gap(2)]);
         let [fixed, growth] = self.space.pixel;
-        2.0 * half[0].max(half[1]).max(half[2]) <= *CELL_PIXELS * (fixed + growth * distance)
+        2.0 * half[0].max(half[1]).max(half[2]) <= pixels * (fixed + growth * distance)
     }
 
     /// Lets rays march on the stretches of them that lie outside the region of all cells, before or behind it.

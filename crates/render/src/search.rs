@@ -99,7 +99,6 @@ impl Search {
                 }
             },
         );
-        let is_sheet = part.is_sheet();
         let mut going = [0_u32; RAYS / LANES];
         // Each ray makes a first model, and another one each time it goes on.
         let mut models = bundle.count_meeting(&rows);
@@ -116,7 +115,9 @@ impl Search {
                 for (start, (middle, half)) in rows.starts().zip(places) {
                     for lane in 0..LANES {
                         let (t, width) = (self.t.0[start + lane], self.width.0[start + lane]);
-                        let far = (t + width).min(bundle.leave.0[start + lane]);
+                        // Rays that meet nothing look nowhere.
+                        let leave = bundle.leave.0[start + lane].max(t);
+                        let far = (t + width).min(leave);
                         middle[lane] = 0.5 * t + 0.5 * far;
                         half[lane] = 0.5 * (far - t) * COVER;
                     }
@@ -127,8 +128,12 @@ impl Search {
                 #[inline(always)]
                 || {
                     for (place, start) in rows.starts().enumerate() {
-                        let model = Model::load(&lanes, place * LANES, is_sheet);
-                        going[place] = self.step(bundle, start, &model, pace);
+                        let first = Model::load(&lanes.first, place * LANES, lanes.is_sheet);
+                        let look = match &lanes.cut {
+                            None => Look::at(&first, None),
+                            Some(cut) => Look::at(&first, Some(&Model::load(cut, place * LANES, false))),
+                        };
+                        going[place] = self.step(bundle, start, &look, pace);
                     }
                 },
             );
@@ -166,8 +171,7 @@ impl Search {
 
     /// Draws the conclusions from models along the stretches ahead, and returns how many rays go on.
     #[inline(always)]
-    fn step(&mut self, bundle: &mut Bundle, start: usize, model: &Model, pace: Pace) -> u32 {
-        let look = model.look();
+    fn step(&mut self, bundle: &mut Bundle, start: usize, look: &Look, pace: Pace) -> u32 {
         let leave = row(&bundle.leave, start);
         let steps: &mut [u32; LANES] = (&mut bundle.steps[start..start + LANES]).try_into().expect("a row");
         let (t, width) = (row_mut(&mut self.t, start), row_mut(&mut self.width, start));
@@ -189,7 +193,13 @@ impl Search {
             let is_hit = is_near | (found == Verdict::HIT) | (is_last & (found != Verdict::UNKNOWN));
             let is_past = is_clear & (far >= leave[lane]);
             // Around a zero that is not known well enough, as far as the doubt goes.
-            let next = if is_clear { far } else if is_root { at - doubt } else { at };
+            let next = if is_clear {
+                far
+            } else if is_root {
+                at - doubt
+            } else {
+                at
+            };
             let next = if next > near { next } else { near };
             let change = look.change[lane];
             let change = if is_clear { greater(change, AT_LEAST_LONGER) } else { lesser(change, SHORTER) };
@@ -263,65 +273,110 @@ impl Model {
         model
     }
 
-    /// Looks for the first zero.
+    /// Bernstein coefficients of one ray's polynomial on the part from `a` to `a + w` of its range.
     #[inline(always)]
-    fn look(&self) -> Look {
-        let [p0, p1, p2, p3, p4] = &self.p;
+    fn part(&self, lane: usize, a: f32, w: f32) -> Bernstein {
+        let [p0, p1, p2, p3, p4] = self.p.each_ref().map(|term| term[lane]);
+        // The Taylor coefficients at `a`, by repeated division.
+        let c3 = p3 + p4 * a;
+        let c2 = p2 + c3 * a;
+        let c1 = p1 + c2 * a;
+        let q0 = p0 + c1 * a;
+        let d3 = c3 + p4 * a;
+        let d2 = c2 + d3 * a;
+        let q1 = (c1 + d2 * a) * w;
+        let e3 = d3 + p4 * a;
+        let q2 = (d2 + e3 * a) * (w * w);
+        let q3 = (e3 + p4 * a) * (w * w * w);
+        let q4 = p4 * (w * w) * (w * w);
+        let b1 = q0 + 0.25 * q1;
+        let b2 = q0 + 0.5 * q1 + q2 * (1.0 / 6.0);
+        let b3 = q0 + 0.75 * q1 + 0.5 * q2 + 0.25 * q3;
+        let b4 = q0 + q1 + q2 + q3 + q4;
+        Bernstein {
+            begin: q0,
+            end: b4,
+            least: lesser(lesser(q0, b1), lesser(lesser(b2, b3), b4)),
+            most: greater(greater(q0, b1), greater(greater(b2, b3), b4)),
+            ascent: greater(greater(b1 - q0, b2 - b1), greater(b3 - b2, b4 - b3)) + self.slack[lane],
+            bound: self.r[lane] + self.slack[lane],
+        }
+    }
+}
+
+/// What is known of a field on a part of a model's range.
+struct Bernstein {
+    /// The polynomial at both ends, and bounds of it in between.
+    begin: f32,
+    end: f32,
+    least: f32,
+    most: f32,
+    /// The largest difference of two coefficients; a quarter of the steepest ascent over the part.
+    ascent: f32,
+    /// How far the field may be from the polynomial.
+    bound: f32,
+}
+
+impl Bernstein {
+    /// Whether the field falls from above zero to below.
+    #[inline(always)]
+    fn falls_through(&self) -> bool {
+        (self.ascent < 0.0) & (self.begin > self.bound) & (self.end < -self.bound)
+    }
+}
+
+impl Look {
+    /// Looks for the first zero of the field of a row of models, or of the larger one of two fields.
+    #[inline(always)]
+    fn at(first: &Model, cut: Option<&Model>) -> Self {
         let (mut at, mut width) = ([-1.0_f32; LANES], [2.0_f32; LANES]);
-        let (mut verdict, mut descent) = ([Verdict::OPEN; LANES], [0.0_f32; LANES]);
+        let (mut verdict, mut descent) = ([Verdict::OPEN; LANES], [1.0_f32; LANES]);
+        let mut is_of_cut = [false; LANES];
         for lane in 0..LANES {
             // Where the field has no value it has no zero.
-            verdict[lane] = if p0[lane].is_nan() { Verdict::CLEAR } else { verdict[lane] };
-            verdict[lane] = if self.r[lane] < f32::INFINITY { verdict[lane] } else { Verdict::UNKNOWN };
+            let is_known = (first.r[lane] < f32::INFINITY) & cut.is_none_or(|cut| cut.r[lane] < f32::INFINITY);
+            let known = if is_known { Verdict::OPEN } else { Verdict::UNKNOWN };
+            verdict[lane] = if first.p[0][lane].is_nan() { Verdict::CLEAR } else { known };
         }
         for _ in 0..LOOKS {
             let mut open = 0;
             for lane in 0..LANES {
                 let (a, w) = (at[lane], width[lane]);
-                // The Taylor coefficients at `a`, by repeated division; then for the part from `a` to `a + w`.
-                let (c3, c2, c1) = (p3[lane] + p4[lane] * a, p2[lane], p1[lane]);
-                let c2 = c2 + c3 * a;
-                let c1 = c1 + c2 * a;
-                let q0 = p0[lane] + c1 * a;
-                let d3 = c3 + p4[lane] * a;
-                let d2 = c2 + d3 * a;
-                let q1 = (c1 + d2 * a) * w;
-                let e3 = d3 + p4[lane] * a;
-                let q2 = (d2 + e3 * a) * (w * w);
-                let q3 = (e3 + p4[lane] * a) * (w * w * w);
-                let q4 = p4[lane] * (w * w) * (w * w);
-                let b1 = q0 + 0.25 * q1;
-                let b2 = q0 + 0.5 * q1 + q2 * (1.0 / 6.0);
-                let b3 = q0 + 0.75 * q1 + 0.5 * q2 + 0.25 * q3;
-                let b4 = q0 + q1 + q2 + q3 + q4;
-                let least = lesser(lesser(q0, b1), lesser(lesser(b2, b3), b4));
-                let steepest = greater(greater(b1 - q0, b2 - b1), greater(b3 - b2, b4 - b3));
-                let bound = self.r[lane] + self.slack[lane];
-                let falls = steepest + self.slack[lane] < 0.0;
-                let is_clear = least > bound;
-                let is_inside = q0 < -bound;
-                let is_root = falls & (q0 > bound) & (b4 < -bound);
-                let is_decided = is_clear | is_inside | is_root;
-                let is_stuck = !is_decided & (!(q0 > bound) | (w <= SHORTEST_LOOK));
+                let own = first.part(lane, a, w);
+                let (mut is_clear, mut is_inside) = (own.least > own.bound, own.begin < -own.bound);
+                let (mut is_root, mut ascent) = (own.falls_through(), own.ascent);
+                let mut is_ahead = own.begin > own.bound;
+                let mut cuts = false;
+                if let Some(cut) = cut {
+                    let other = cut.part(lane, a, w);
+                    is_root &= other.most < -other.bound;
+                    cuts = other.falls_through() & (own.most < -own.bound);
+                    is_root |= cuts;
+                    ascent = if cuts { other.ascent } else { ascent };
+                    is_clear |= other.least > other.bound;
+                    is_inside &= other.begin < -other.bound;
+                    is_ahead |= other.begin > other.bound;
+                }
+                let is_stuck = !(is_clear | is_inside | is_root) & (!is_ahead | (w <= SHORTEST_LOOK));
                 let is_done = is_clear & (a + w >= 1.0);
                 let was_open = verdict[lane] == Verdict::OPEN;
-                let outcome = if is_root {
+                let outcome = if is_clear {
+                    if is_done { Verdict::CLEAR } else { Verdict::OPEN }
+                } else if is_root {
                     Verdict::ROOT
                 } else if is_inside {
                     Verdict::HIT
-                } else if is_done {
-                    Verdict::CLEAR
                 } else if is_stuck {
                     Verdict::STUCK
                 } else {
                     Verdict::OPEN
                 };
                 verdict[lane] = if was_open { outcome } else { verdict[lane] };
-                descent[lane] = if was_open { -(steepest + self.slack[lane]) * 4.0 / w } else { descent[lane] };
+                descent[lane] = if was_open { ascent * -4.0 / w } else { descent[lane] };
+                is_of_cut[lane] = if was_open { cuts } else { is_of_cut[lane] };
                 let goes_on = was_open & (outcome == Verdict::OPEN);
                 let next = if is_clear { a + w } else { a };
-                let rest = 1.0 - next;
-                let next_width = if is_clear { lesser(2.0 * w, rest) } else { 0.5 * w };
+                let next_width = if is_clear { lesser(2.0 * w, 1.0 - next) } else { 0.5 * w };
                 at[lane] = if goes_on { next } else { a };
                 width[lane] = if goes_on { next_width } else { w };
                 open += u32::from(goes_on);
@@ -330,42 +385,53 @@ impl Model {
                 break;
             }
         }
-        // Where the polynomial falls through zero, and how far the field's zero may be from there.
-        let mut x = [0.0_f32; LANES];
+        let mut look = Self { verdict, at, doubt: [0.0; LANES], change: [0.0; LANES] };
+        look.refine(first, cut, &width, &descent, &is_of_cut);
+        look
+    }
+
+    /// Finds where the polynomials fall through zero, and how far the fields' zeros may be from there. `descent` is the least
+    /// one on the part of the range that this is known to be in.
+    #[inline(always)]
+    fn refine(&mut self, first: &Model, cut: Option<&Model>, width: &Row, descent: &Row, is_of_cut: &[bool; LANES]) {
         for lane in 0..LANES {
-            let value = |s: f32| (((p4[lane] * s + p3[lane]) * s + p2[lane]) * s + p1[lane]) * s + p0[lane];
-            let slope = |s: f32| ((4.0 * p4[lane] * s + 3.0 * p3[lane]) * s + 2.0 * p2[lane]) * s + p1[lane];
-            let (first, last) = (at[lane], at[lane] + width[lane]);
-            let (above, below) = (value(first), value(last));
-            let mut s = first + width[lane] * (above / (above - below));
+            let pick = |first: f32, other: Option<f32>| match other {
+                Some(other) if is_of_cut[lane] => other,
+                _ => first,
+            };
+            let p: [f32; 5] =
+                std::array::from_fn(|power| pick(first.p[power][lane], cut.map(|cut| cut.p[power][lane])));
+            let (begin, end) = (self.at[lane], self.at[lane] + width[lane]);
+            let (above, below) = (value(p, begin), value(p, end));
+            let mut s = begin + width[lane] * (above / (above - below));
             for _ in 0..NEWTON_STEPS {
-                let next = s - value(s) / slope(s);
-                let next = if next > first { next } else { first };
-                s = if next < last { next } else { last };
+                let slope = ((4.0 * p[4] * s + 3.0 * p[3]) * s + 2.0 * p[2]) * s + p[1];
+                let next = s - value(p, s) / slope;
+                s = lesser(greater(next, begin), end);
             }
-            x[lane] = s;
+            let bound = pick(first.r[lane] + first.slack[lane], cut.map(|cut| cut.r[lane] + cut.slack[lane]));
+            let is_root = self.verdict[lane] == Verdict::ROOT;
+            self.doubt[lane] = (value(p, s).abs() + bound) / descent[lane];
+            self.at[lane] = if is_root { s } else { self.at[lane] };
+            let is_open = self.verdict[lane] == Verdict::OPEN;
+            self.verdict[lane] = if is_open { Verdict::STUCK } else { self.verdict[lane] };
         }
-        let mut doubt = [0.0; LANES];
         for lane in 0..LANES {
-            let s = x[lane];
-            let value = (((p4[lane] * s + p3[lane]) * s + p2[lane]) * s + p1[lane]) * s + p0[lane];
-            let is_root = verdict[lane] == Verdict::ROOT;
-            doubt[lane] = (value.abs() + self.r[lane] + self.slack[lane]) / descent[lane];
-            at[lane] = if is_root { s } else { at[lane] };
-            let open = verdict[lane] == Verdict::OPEN;
-            verdict[lane] = if open { Verdict::STUCK } else { verdict[lane] };
-        }
-        let mut change = [0.0; LANES];
-        for lane in 0..LANES {
-            let excess = self.r[lane] / (self.slack[lane] * (GOOD_BOUND / ROUNDING));
+            let excess = |model: &Model| model.r[lane] / (model.slack[lane] * (GOOD_BOUND / ROUNDING));
+            let excess = cut.map_or(excess(first), |cut| greater(excess(first), excess(cut)));
             let mut factor = LONGER;
             for [least, change] in CHANGES.into_iter().rev() {
                 factor = if excess > least { change } else { factor };
             }
-            change[lane] = if self.r[lane] < f32::INFINITY { factor } else { CHANGES[0][1] };
+            self.change[lane] = if self.verdict[lane] == Verdict::UNKNOWN { CHANGES[0][1] } else { factor };
         }
-        Look { verdict, at, doubt, change }
     }
+}
+
+/// A polynomial's value.
+#[inline(always)]
+fn value(p: [f32; 5], s: f32) -> f32 {
+    (((p[4] * s + p[3]) * s + p[2]) * s + p[1]) * s + p[0]
 }
 
 #[inline(always)]

@@ -494,7 +494,11 @@ impl<I: Simd> Scalar for Taylor<I> {
         let zero = self.r.lift(0.0);
         let base = self.range();
         let smooth = (exponent * self.ln()).exp();
-        Self::choose(zero.lt(base.lo), smooth, self.flat(base.pow(exponent.range())).undefined_if(exponent.p[0].is_nan()))
+        Self::choose(
+            zero.lt(base.lo),
+            smooth,
+            self.flat(base.pow(exponent.range())).undefined_if(exponent.p[0].is_nan()),
+        )
     }
 
     #[inline(always)]
