@@ -171,7 +171,9 @@ impl<'f> Trip<'_, 'f, '_> {
 
     fn is_small(&self, cell: &Cell) -> bool {
         let part = cell.part();
-        if cell.occupancy() != Occupancy::Surface || part.size() <= if part.is_measured() { SMALL_PART } else { *SP } {
+        let (small, pixels) =
+            if part.is_measured() { (SMALL_PART, CELL_PIXELS) } else { (SMALL_FORMULA, FORMULA_PIXELS) };
+        if cell.occupancy() != Occupancy::Surface || part.size() <= small {
             return true;
         }
         let (middle, half, eye) = (cell.middle(), cell.half(), self.space.eye);
