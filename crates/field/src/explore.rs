@@ -41,14 +41,12 @@ impl Default for Limits {
 /// not bounded.
 const FAR: f64 = 0.5;
 
-/// The first look is for a box this much too large, relative to how far from the origin it reaches.
-const COARSE: f64 = 1e-2;
+/// The first look is for a box this much too large, relative to how far from the origin it reaches: coarse, so that it takes
+/// few steps to come in from the border.
+const COARSE: f64 = 0.25;
 
 /// The first look need not be finer than this, relative to the reach.
 const LEAST: f64 = 1e-7;
-
-/// What the lengths of its edges weigh against the slopes in the choice of how to halve a box.
-const LEAST_SAY: f64 = 1e-2;
 
 /// Looks at one extent. The first one shows the size of the shape, by which the tolerances of the others are measured.
 const LOOKS: usize = 3;
@@ -205,6 +203,8 @@ struct Candidate {
     region: [Interval; 3],
     /// By how much each axis makes the field vary in it.
     spread: [f64; 3],
+    /// How often the region was halved for it.
+    depth: u32,
 }
 
 impl Ord for Candidate {
@@ -239,9 +239,9 @@ fn farthest(
     // The largest score of a point that was found.
     let mut found = f64::NEG_INFINITY;
     let mut count = 0;
-    let mut pending = vec![region];
+    let mut pending = vec![(region, 0)];
     loop {
-        for region in pending.drain(..) {
+        for (region, depth) in pending.drain(..) {
             count += 1;
             let best = score(&region).hi();
             if best <= found {
@@ -257,12 +257,12 @@ fn farthest(
             } else if program.value(middle.into()) <= 0.0 {
                 found = found.max(score(&middle.map(Interval::point)).hi());
             }
-            candidates.push(Candidate { score: best, region, spread });
+            candidates.push(Candidate { score: best, region, spread, depth });
         }
         if found > goal.far {
             return Found::TooFar;
         }
-        let Some(Candidate { score: bound, region, spread }) = candidates.pop() else {
+        let Some(Candidate { score: bound, region, spread, depth }) = candidates.pop() else {
             return if found > f64::NEG_INFINITY { Found::Bound(found) } else { Found::Nothing };
         };
         let tolerance = goal.tolerance.unwrap_or(COARSE * bound.abs() + goal.least);
@@ -273,17 +273,25 @@ fn farthest(
         if count >= goal.boxes {
             return Found::TooFar;
         }
-        // Where nothing is known about the slopes, the longest edge decides; and so that none stays long for ever, it has a say
-        // everywhere.
+        // Halving helps to show that the field is positive, or that the score is small. Every other time it is for the latter,
+        // unless that is small already.
         let widths = region.map(Interval::width);
-        let total = [spread, widths].map(|numbers| numbers.into_iter().sum::<f64>());
-        let is_known = total[0] > 0.0 && total[0].is_finite();
-        let weight = std::array::from_fn(|axis| match is_known {
-            true => spread[axis] / total[0] + LEAST_SAY * widths[axis] / total[1],
-            false => widths[axis],
+        let by_score = [0, 1, 2].map(|axis| {
+            let mut thin = region;
+            thin[axis] = Interval::point(region[axis].hi());
+            let other = score(&thin).width();
+            (score(&region).width() - other).max(0.0)
         });
+        let is_score_wide = score(&region).width() > tolerance;
+        let is_known = spread.into_iter().sum::<f64>() > 0.0 && spread.into_iter().all(f64::is_finite);
+        let weight = match (depth % 2 == 0 && is_score_wide, is_known) {
+            (true, _) => by_score,
+            // Where nothing is known about the slopes, the longest edge decides.
+            (false, true) => spread,
+            (false, false) => widths,
+        };
         match halves(region, weight) {
-            Some(halves) => pending.extend(halves),
+            Some(halves) => pending.extend(halves.map(|half| (half, depth + 1))),
             None => return Found::TooFar,
         }
     }
