@@ -192,7 +192,7 @@ fn formulas(reader: &mut Reader, shape: &Shape, entries: &Entries<'_>) -> Option
     let read = |param: &FormulaParam| match param.default.filter(|_| entries.get(param.name).is_none()) {
         Some(text) => Formula::parse(text).ok(),
         None => {
-            entries.require(reader, param.name, "a formula");
+            entries.require(reader, param.name, param.about);
             entries.read(reader, param.name, &FormulaNotation)
         }
     };
