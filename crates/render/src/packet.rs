@@ -14,6 +14,12 @@ use freikugel_field::{Cell, Cells, Encloser, Evaluator, Occupancy, Splitter};
 /// A part with this many steps is not worth splitting further: the point and two primitives with their union.
 const SMALL_PART: usize = 8;
 
+/// The same for a part with a warp or a displacement, whose formulas count, too.
+const SMALL_WARPED: usize = 32;
+
+/// Where the field is steeper than this, a search by intervals needs fewer looks than a march would need steps.
+const STEEP: f32 = 16.0;
+
 /// A box this many pixels wide, as seen from the camera, is not split further: fewer rays meet it than fill the lanes.
 const CELL_PIXELS: f32 = 24.0;
 
@@ -343,6 +349,9 @@ impl<'f> Trip<'_, 'f, '_> {
         if cell.occupancy() != Occupancy::Surface || (part.size() <= SMALL_PART && part.is_measured()) {
             return true;
         }
+        if part.is_warped() && part.size() <= SMALL_WARPED && self.space.cells.slope(cell).is_tight {
+            return true;
+        }
         let (middle, half, eye) = (cell.middle(), cell.half(), self.space.eye);
         let gap = |axis: usize| ((middle[axis] - eye[axis]).abs() - half[axis]).max(0.0);
         let distance = crate::vector::length([gap(0), gap(1), gap(2)]);
@@ -373,7 +382,7 @@ impl<'f> Trip<'_, 'f, '_> {
                 bundle.met.push(Met { ray: group.ray[ray], span });
             }
         }
-        self.march_met(bundle, root)
+        self.march_met(bundle, root, self.pace_of(root).filter(|_| root.part().is_measured()))
     }
 
     /// Lets the rays of a group that meet a cell march through it.
@@ -386,7 +395,7 @@ impl<'f> Trip<'_, 'f, '_> {
             Met { ray: group.ray[place], span }
         }));
         let finds = bundle.found.len();
-        let evaluations = self.march_met(bundle, cell);
+        let evaluations = self.march_met(bundle, cell, self.pace_of(cell));
         if bundle.found.len() > finds {
             for group in &mut bundle.groups[..=depth] {
                 group.stop(&bundle.states);
@@ -395,29 +404,39 @@ impl<'f> Trip<'_, 'f, '_> {
         evaluations
     }
 
-    /// Lets the rays in `bundle.met` march where the part of `cell` holds.
-    fn march_met(&mut self, bundle: &mut Bundle, cell: &'f Cell) -> u64 {
-        let is_measured = cell.part().is_measured();
+    /// How rays march in a cell by the values of its part, if they can. Where space is warped, that depends on the cell.
+    fn pace_of(&self, cell: &Cell) -> Option<Pace> {
+        let pace = self.space.pace;
+        if cell.part().is_measured() {
+            return Some(pace);
+        }
+        let slope = cell.part().is_warped().then(|| self.space.cells.slope(cell).bound)?;
+        (slope > 0.0 && slope <= STEEP).then(|| Pace { scale: 1.0 / slope, ..pace })
+    }
+
+    /// Lets the rays in `bundle.met` march where the part of `cell` holds; without a pace, they search.
+    fn march_met(&mut self, bundle: &mut Bundle, cell: &'f Cell, pace: Option<Pace>) -> u64 {
         // Without a scale there is no clearance: a surface dims all or nothing.
-        let is_soft = self.quest == Quest::Least && is_measured;
+        let is_soft = self.quest == Quest::Least && pace.is_some();
+        let scale = pace.map_or(1.0, |pace| pace.scale);
         for &Met { ray, span } in &bundle.met {
             let (start, state) = (&bundle.starts[ray as usize], &bundle.states[ray as usize]);
             if let (true, Occupancy::Outside(clearance)) = (is_soft, cell.occupancy())
-                && clearance * self.space.pace.scale * start.sharpness >= state.factor * span[1]
+                && clearance * scale * start.sharpness >= state.factor * span[1]
             {
                 continue;
             }
             let start = Start { id: ray, span, steps: state.steps, ..*start };
-            match is_measured {
-                true => self.march.push(&start, [state.factor, state.before]),
-                false => self.search.push(&start),
+            match pace {
+                Some(_) => self.march.push(&start, [state.factor, state.before]),
+                None => self.search.push(&start),
             }
         }
         self.ends.clear();
-        let evaluations = match is_soft {
-            _ if !is_measured => self.search.run(self.encloser, cell.part(), self.space.pace, self.ends),
-            false => self.march.hard(self.field, cell.part(), self.space.pace, self.ends),
-            true => self.march.soft(self.field, cell.part(), self.space.pace, self.ends),
+        let evaluations = match pace {
+            None => self.search.run(self.encloser, cell.part(), self.space.pace, self.ends),
+            Some(pace) if is_soft => self.march.soft(self.field, cell.part(), pace, self.ends),
+            Some(pace) => self.march.hard(self.field, cell.part(), pace, self.ends),
         };
         let place = self.places.len() as u32;
         let finds = bundle.found.len();
