@@ -20,8 +20,9 @@ const EYE: f64 = 6.0;
 const SAMPLES: u32 = 1000;
 const DEPTH: f64 = 2.5;
 
-/// A surface this near to a ray, as a field value, may count as met or as missed.
-const GRAZE: f64 = 2e-3;
+/// A surface this near to a ray, as a field value, may count as met or as missed: a sixteenth of half a pixel, which is what the
+/// renderer allows, and the rounding of samples.
+const GRAZE: f64 = VIEW / HEIGHT as f64 / 32.0 + 1e-4;
 
 fn fields() -> Vec<(&'static str, Field)> {
     vec![

@@ -138,10 +138,10 @@ fn corner(c: glam::DVec3) -> String {
     format!("({:.4}, {:.4}, {:.4})", c.x, c.y, c.z)
 }
 
-/// Four digits of a number, rounded up.
+/// Four digits of a number, rounded up unless nothing but rounding errors stands behind them.
 fn brief(number: f64) -> String {
     let unit = 10f64.powf(number.abs().max(f64::MIN_POSITIVE).log10().floor() - 3.0);
-    let rounded = (number / unit).ceil() * unit;
+    let rounded = (number / unit * (1.0 - 1e-12)).ceil() * unit;
     if rounded < 1e6 {
         format!("{rounded:.4}").trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
