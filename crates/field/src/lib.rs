@@ -57,7 +57,7 @@ pub use analysis::{Analysis, MAX_DEPTH, analyse, extent};
 pub use cells::{Cell, Cells, Occupancy, Slope, Splitter};
 pub use contract::{Aabb, Contract, Extent, Metric};
 pub use diagnostic::{Diagnostic, Severity};
-pub use enclose::{Bounds, Encloser, Stretches};
+pub use enclose::{Bounds, Encloser, ModelLanes, StretchLanes, Stretches};
 pub use evaluator::{Evaluator, Points, Shares};
 pub use explore::{Limits, explore, find_extent, find_radius, find_support};
 pub use field::{Axis, Field, Form, MaterialId, Node, Origin, Triple, Value};
@@ -74,6 +74,7 @@ pub use vector::{Vec3, vec3};
 mod shape_prelude {
     pub(crate) use crate::contract::{Contract, Metric};
     pub(crate) use crate::field::{Field, Form, Triple, Value};
+    pub(crate) use crate::kernel::{PrimitiveKernel, primitive_models};
     pub(crate) use crate::scalar::{Constants, Interval, Scalar};
     pub(crate) use crate::shape::{
         AXIS, About, Combine, ExactForm, Hull, Modify, Param, ParamKind, Place, Primitive, Settled, Shape,

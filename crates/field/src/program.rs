@@ -6,10 +6,10 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Graph, Slots};
-use crate::formula::Binary;
+use crate::formula::Unary;
 use crate::kernel::{CombineFn, CombineKernels, Dual2, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels, affine};
 use crate::lower::Listing;
-use crate::operation::{Code, Derive, NO_REGION, Run, Step, Steps, inverse_of};
+use crate::operation::{Code, Derive, NO_REGION, Run, Step, StepId, Steps, inverse_of};
 use crate::scalar::{Constants, Dual, Interval, Scalar};
 use crate::vector::{Vec3, spectral_norm};
 use glam::DVec3;
@@ -225,19 +225,16 @@ pub struct Part {
     listing: OnceLock<Listing>,
     one_by_one: OnceLock<Listing>,
     kept: OnceLock<Listing>,
+    zeros: OnceLock<Listing>,
     regions: OnceLock<Vec<u32>>,
 }
 
 impl Part {
     pub(crate) fn new(steps: Steps) -> Self {
         let one_by_one = OnceLock::new();
-        // A cut by a distance leaves a distance, everything else that formulas do has no scale.
-        let has_no_scale = |step: &Step| match step {
-            Step::Altered { op, .. } => *op != Binary::Max,
-            Step::Surface { .. } | Step::Warp { .. } => true,
-            _ => false,
-        };
-        let is_measured = !steps.list.iter().any(has_no_scale);
+        // What is computed from coordinates other than by primitives has no scale. A formula of which nothing but the cut is
+        // left does not read them any more.
+        let is_measured = !steps.list.iter().any(|step| matches!(step, Step::Coordinate { .. } | Step::Literal { .. }));
         let is_warped = !is_measured && !steps.list.iter().any(|step| matches!(step, Step::Surface { .. }));
         Self {
             steps,
@@ -246,6 +243,7 @@ impl Part {
             listing: OnceLock::new(),
             one_by_one,
             kept: OnceLock::new(),
+            zeros: OnceLock::new(),
             regions: OnceLock::new(),
         }
     }
@@ -288,6 +286,34 @@ impl Part {
     /// The operations that keep every intermediate value.
     pub(crate) fn kept(&self) -> &Listing {
         self.kept.get_or_init(|| Listing::keeping_all(&self.steps))
+    }
+
+    /// Whether the values are the absolute values of another field, so that its zeros can be found where that changes its
+    /// sign. Then [`crate::Encloser::models`] are of that field.
+    pub fn is_sheet(&self) -> bool {
+        self.folded().is_some()
+    }
+
+    /// The step whose absolute value is the result, if there is one.
+    fn folded(&self) -> Option<StepId> {
+        let mut id = self.steps.result?;
+        loop {
+            match self.steps.list[id.index()] {
+                Step::Surface { from, .. } => id = from,
+                Step::Unary { op: Unary::Abs, from } => return Some(from),
+                _ => return None,
+            }
+        }
+    }
+
+    /// The operations for the field that has the zeros.
+    pub(crate) fn zeros(&self) -> &Listing {
+        let Some(folded) = self.folded() else { return self.listing() };
+        self.zeros.get_or_init(|| {
+            let mut list = self.steps.list.clone();
+            list.truncate(folded.index() + 1);
+            Listing::of(&Steps { list, result: Some(folded) })
+        })
     }
 
     /// The regions of all its surfaces, in order.

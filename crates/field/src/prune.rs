@@ -94,7 +94,9 @@ impl Survey {
         let range = |id: StepId| ends[id.index() * boxes + place];
         let Scratch { settled, windows, renamed } = &mut self.scratch;
         settle(program, list, range, settled);
-        let dropped = mark(list, result, range, settled, windows);
+        // Without a scale only the sign tells anything of what is inside, so that it does not matter how far below 0 it is.
+        let window = if part.is_measured() { Window::ALL } else { Window { floor: 0.0, ..Window::ALL } };
+        let dropped = mark(list, result, window, range, settled, windows);
         if dropped == 0 {
             return Arc::clone(part);
         }
@@ -162,13 +164,15 @@ impl Window {
 }
 
 /// Finds what the result still depends on, and settles choices of which an operand is too large or too small to matter in
-/// the end. Returns how many steps don't matter.
+/// the end. Returns how many steps don't matter. Values of the result outside `window` are as good as any others on that
+/// side of it.
 ///
 /// A chain of minima is settled from its end: an operand above the largest value that the whole chain can have is not
 /// needed, even if it is not above the operands before it. Chains of maxima likewise.
 fn mark(
     list: &[Step],
     result: StepId,
+    window: Window,
     range: impl Fn(StepId) -> [f32; 2],
     settled: &mut [Settled],
     windows: &mut Vec<Window>,
@@ -176,7 +180,7 @@ fn mark(
     windows.clear();
     windows.resize(list.len(), Window::UNREAD);
     windows[StepId::POINT.index()] = Window::ALL;
-    windows[result.index()] = Window::ALL;
+    windows[result.index()] = window;
     let mut needed = 0;
     for index in (0..list.len()).rev() {
         let own = windows[index];
@@ -185,18 +189,17 @@ fn mark(
         }
         needed += 1;
         let step = &list[index];
-        let mut window = Window::ALL;
+        let mut window = if let Step::Surface { .. } = step { own } else { Window::ALL };
         if let Some((a, b, choice)) = choice(step) {
             let [lo, hi] = range(StepId(index as u32));
-            // Only operands of the same choice inherit the window.
-            match choice {
-                Choice::Lesser => window.ceiling = own.ceiling.min(hi),
-                Choice::Greater => window.floor = own.floor.max(lo),
-            }
+            window = match choice {
+                Choice::Lesser => Window { ceiling: own.ceiling.min(hi), ..own },
+                Choice::Greater => Window { floor: own.floor.max(lo), ..own },
+            };
             if settled[index] == Settled::Open {
-                let is_outside = |id: StepId| {
-                    let [lo, hi] = range(id);
-                    lo > window.ceiling || hi < window.floor
+                let is_outside = |id: StepId| match (choice, range(id)) {
+                    (Choice::Lesser, [lo, _]) => lo > window.ceiling,
+                    (Choice::Greater, [_, hi]) => hi < window.floor,
                 };
                 settled[index] = match (is_outside(a), is_outside(b)) {
                     (false, true) => Settled::First,

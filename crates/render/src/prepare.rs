@@ -129,10 +129,9 @@ impl<'s> Renderer<'s> {
                 };
                 exact.push(Exact { ray, paint, structure });
             } else if analysis.extent != Extent::Empty {
-                // What has no scale is searched by intervals instead.
-                if analysis.contract.is_safe_step() {
-                    scale = scale.min(safe_scale(&analysis.contract));
-                }
+                // What has no scale is searched by intervals instead; distances that it is cut with have slope 1.
+                let is_safe = analysis.contract.is_safe_step();
+                scale = scale.min(if is_safe { safe_scale(&analysis.contract) } else { 1.0 });
                 bounds = hull(bounds, analysis.extent);
                 marched.push(index);
             }
