@@ -39,6 +39,7 @@
 
 mod encode;
 mod filter;
+mod fixed;
 mod image;
 mod layers;
 mod light;
@@ -47,6 +48,7 @@ mod material;
 mod options;
 mod packet;
 mod prepare;
+mod relaxed;
 mod run;
 mod search;
 mod shade;
@@ -54,6 +56,7 @@ mod stats;
 mod trace;
 mod vector;
 mod view;
+mod wave;
 
 pub use encode::{EncodeError, encode_exr, encode_png};
 pub use image::{Image, Tone, srgb_encode8};

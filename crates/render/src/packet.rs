@@ -9,7 +9,7 @@ use crate::march::{End, Fate, March, Pace, Start};
 use crate::search::Search;
 use crate::vector::Triple;
 use freikugel_field::simd::{self, Level};
-use freikugel_field::{Cell, Cells, Encloser, Evaluator, Occupancy, Splitter};
+use freikugel_field::{Cell, Cells, Encloser, Evaluator, Occupancy, Part, Splitter};
 
 /// A part with this many steps is not worth splitting further: the point and two primitives with their union.
 const SMALL_PART: usize = 8;
@@ -31,6 +31,8 @@ pub(crate) struct Space<'f> {
     pub(crate) eye: Triple,
     pub(crate) pixel: [f32; 2],
     pub(crate) pace: Pace,
+    /// Whether distances are searched like formulas.
+    pub(crate) searches_all: bool,
 }
 
 /// What rays look for.
@@ -334,13 +336,18 @@ impl<'f> Trip<'_, 'f, '_> {
         evaluations
     }
 
+    /// Whether rays march by the values of a part. A penumbra is made of clearances, which no search finds.
+    fn is_marched(&self, part: &Part) -> bool {
+        part.is_measured() && (!self.space.searches_all || self.quest == Quest::Least)
+    }
+
     fn is_of_no_interest(&self, cell: &Cell) -> bool {
         self.quest != Quest::Least && matches!(cell.occupancy(), Occupancy::Outside(_))
     }
 
     fn is_small(&self, cell: &Cell) -> bool {
         let part = cell.part();
-        if cell.occupancy() != Occupancy::Surface || (part.size() <= SMALL_PART && part.is_measured()) {
+        if cell.occupancy() != Occupancy::Surface || (part.size() <= SMALL_PART && self.is_marched(part)) {
             return true;
         }
         let (middle, half, eye) = (cell.middle(), cell.half(), self.space.eye);
@@ -397,7 +404,7 @@ impl<'f> Trip<'_, 'f, '_> {
 
     /// Lets the rays in `bundle.met` march where the part of `cell` holds.
     fn march_met(&mut self, bundle: &mut Bundle, cell: &'f Cell) -> u64 {
-        let is_measured = cell.part().is_measured();
+        let is_measured = self.is_marched(cell.part());
         // Without a scale there is no clearance: a surface dims all or nothing.
         let is_soft = self.quest == Quest::Least && is_measured;
         for &Met { ray, span } in &bundle.met {

@@ -54,6 +54,6 @@ pub use object::Object;
 pub use read::{MOST_NESTED, Reading, VERSION, read};
 pub use scene::{Origins, Scene};
 pub use schema::schema;
-pub use settings::{Overbright, Picture, Tracer};
+pub use settings::{Method, Overbright, Picture, Tracer};
 pub use shadow::Shadow;
 pub use surroundings::{Ambient, Background, Occlusion};

@@ -5,6 +5,8 @@ use super::{Failure, input};
 use clap::ValueEnum;
 use freikugel::files::{Format, Output};
 use freikugel::render::{Options, Progress, Rect, RenderError, Rendered, Stats, render};
+use freikugel::scene::color::from_hex;
+use freikugel::scene::{Method, Rgb};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -14,6 +16,7 @@ Examples:
   freikugel render cup.json                       writes cup.png
   freikugel render cup.json -o cup.exr            linear colours, unclamped
   freikugel render cup.json --quality draft       one ray a pixel
+  freikugel render cup.json --tracer sphere       plain sphere tracing, for comparison
   freikugel render cup.json --crop 100,50,64,64   a part of the frame, the same bytes as in the whole
   freikugel render cup.json --stats cup-stats.json";
 
@@ -47,6 +50,12 @@ pub(super) struct Arguments {
     /// The instruction set to evaluate fields with; by default the best one. The picture is the same with all.
     #[arg(long, value_name = "NAME")]
     simd: Option<String>,
+    /// How rays find surfaces, instead of the scene's way.
+    #[arg(long, value_name = "NAME", value_parser = parse_method)]
+    tracer: Option<Method>,
+    /// Draw pixels with a ray that ran out of steps in this colour: #rrggbb or #rgb.
+    #[arg(long, value_name = "COLOR", value_parser = parse_color)]
+    warning_color: Option<Rgb>,
     /// Write counts and times to this file, as JSON.
     #[arg(long, value_name = "FILE")]
     stats: Option<PathBuf>,
@@ -84,6 +93,18 @@ fn parse_crop(text: &str) -> Result<Rect, String> {
     }
 }
 
+/// The tracer of a name.
+pub(super) fn parse_method(text: &str) -> Result<Method, String> {
+    Method::from_name(text).ok_or_else(|| {
+        let names = Method::ALL.map(Method::name);
+        format!("there are {}", names.join(", "))
+    })
+}
+
+fn parse_color(text: &str) -> Result<Rgb, String> {
+    from_hex(text).ok_or_else(|| "give #rrggbb or #rgb".into())
+}
+
 /// Renders the picture and writes its files.
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = output_path(arguments)?;
@@ -91,7 +112,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .ok_or_else(|| Failure::Usage(format!("{}: the suffix must be .png or .exr", path.display())))?;
     let level = arguments.simd.as_deref().map(instruction_set).transpose()?;
 
-    let scene = input::scene(&arguments.scene)?;
+    let mut scene = input::scene(&arguments.scene)?;
+    scene.tracer.method = arguments.tracer.unwrap_or(scene.tracer.method);
+    scene.tracer.warning = arguments.warning_color.or(scene.tracer.warning);
     let mut options = Options { crop: arguments.crop, threads: arguments.threads, level, ..Options::of(&scene) };
     options.width = arguments.width.unwrap_or(options.width);
     options.height = arguments.height.unwrap_or(options.height);
@@ -121,7 +144,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Interrupted);
     }
     if let (Some(file), Some(path)) = (stats_file, &arguments.stats) {
-        file.write(statistics(&rendered).as_bytes()).map_err(|error| cannot_write(path, &error))?;
+        file.write(statistics(&rendered, scene.tracer.method).as_bytes())
+            .map_err(|error| cannot_write(path, &error))?;
     }
     picture_file.write(&bytes).map_err(|error| cannot_write(&path, &error))?;
     if !arguments.quiet {
@@ -198,9 +222,10 @@ fn summarise(path: &Path, rendered: &Rendered) {
 }
 
 /// Counts and times as JSON.
-fn statistics(rendered: &Rendered) -> String {
+fn statistics(rendered: &Rendered, method: Method) -> String {
     let Stats { rays, hits, inside, evaluations, steps, unresolved, times } = &rendered.stats;
     let value = serde_json::json!({
+        "tracer": method.name(),
         "width": rendered.image.width(),
         "height": rendered.image.height(),
         "rays": { "camera": rays.camera, "shadow": rays.shadow, "occlusion": rays.occlusion },
