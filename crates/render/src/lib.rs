@@ -37,6 +37,7 @@
 //! A pixel depends on its own rays alone and is the same, bit by bit, for any number of threads, any instruction set, and
 //! any crop of the frame.
 
+mod compare;
 mod encode;
 mod filter;
 mod fixed;
@@ -58,6 +59,7 @@ mod vector;
 mod view;
 mod wave;
 
+pub use compare::{Comparison, Outcome, Trial, Verdict, compare};
 pub use encode::{EncodeError, encode_exr, encode_png};
 pub use image::{Image, Tone, srgb_encode8};
 pub use layers::{Layer, Layers};

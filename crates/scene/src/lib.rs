@@ -28,6 +28,7 @@ mod camera;
 mod check;
 pub mod color;
 mod diagnostic;
+pub mod edit;
 mod light;
 mod material;
 mod notation;
