@@ -43,9 +43,11 @@ pub mod program;
 mod prune;
 pub mod ray;
 pub mod scalar;
+mod second;
 pub mod shape;
 pub mod shapes;
 pub mod simd;
+mod slope;
 pub mod structure;
 pub mod vector;
 

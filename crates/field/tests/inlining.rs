@@ -38,22 +38,27 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
     let args = field.node().numbers();
     let single = |constants: Vec<f64>| constants.into_iter().map(|c| c as f32).collect::<Vec<f32>>();
     match &shape.kind {
-        Kind::Primitive(table) => [("values", table.kernels.values, 1), ("gradients", table.kernels.gradients, 4)]
-            .into_iter()
-            .map(|(name, kernel, components)| {
-                let (points, mut out) = (blocks(3 * components), blocks(components));
-                let constants = single((table.prepare)(&args));
-                let work: Work = Box::new(move |level, count| {
-                    let (at, before) = (&[0.1, 0.2, 0.3], None);
-                    let (points, constants, out) = (&points, &constants, &mut out);
-                    kernel(level, &mut PrimitiveJob { points, at, constants, before, out, count });
-                });
-                (name, work)
-            })
-            .collect(),
+        Kind::Primitive(table) => [
+            ("values", table.kernels.values, 1),
+            ("gradients", table.kernels.gradients, 4),
+            ("seconds", table.kernels.seconds, 4),
+        ]
+        .into_iter()
+        .map(|(name, kernel, components)| {
+            let (points, mut out) = (blocks(3 * components), blocks(components));
+            let constants = single((table.prepare)(&args));
+            let work: Work = Box::new(move |level, count| {
+                let (at, before) = (&[0.1, 0.2, 0.3], None);
+                let (points, constants, out) = (&points, &constants, &mut out);
+                kernel(level, &mut PrimitiveJob { points, at, constants, before, out, count });
+            });
+            (name, work)
+        })
+        .collect(),
         Kind::Combine(table) => [
             ("values", table.kernels.values, 1),
             ("gradients", table.kernels.gradients, 4),
+            ("seconds", table.kernels.seconds, 4),
             ("shares", table.kernels.shares, 1),
         ]
         .into_iter()
@@ -66,17 +71,21 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
             (name, work)
         })
         .collect(),
-        Kind::Modify(table) => [("values", table.kernels.values, 1), ("gradients", table.kernels.gradients, 4)]
-            .into_iter()
-            .map(|(name, kernel, components)| {
-                let (from, mut out) = (blocks(components), blocks(components));
-                let constants = single((table.prepare)(&args));
-                let work: Work = Box::new(move |level, count| {
-                    kernel(level, &mut ModifyJob { from: &from, constants: &constants, out: &mut out, count });
-                });
-                (name, work)
-            })
-            .collect(),
+        Kind::Modify(table) => [
+            ("values", table.kernels.values, 1),
+            ("gradients", table.kernels.gradients, 4),
+            ("seconds", table.kernels.seconds, 4),
+        ]
+        .into_iter()
+        .map(|(name, kernel, components)| {
+            let (from, mut out) = (blocks(components), blocks(components));
+            let constants = single((table.prepare)(&args));
+            let work: Work = Box::new(move |level, count| {
+                kernel(level, &mut ModifyJob { from: &from, constants: &constants, out: &mut out, count });
+            });
+            (name, work)
+        })
+        .collect(),
         Kind::Place(_) | Kind::Paint | Kind::Formula => Vec::new(),
     }
 }
