@@ -5,7 +5,7 @@
 //! tracer stopped, and whether the ray runs through one where it did not.
 
 use crate::layers::{Layer, Layers};
-use crate::options::Options;
+use crate::options::{Options, Rect};
 use crate::prepare::{Frame, Renderer, rounding};
 use crate::run::{Progress, RenderError};
 use crate::stats::Stats;
@@ -93,7 +93,7 @@ impl Comparison {
     }
 }
 
-/// Traces one ray through each pixel with each method, `runs` times each, and compares what they meet with what the
+/// Traces one ray through each pixel of the frame or its crop with each method, `runs` times each, and compares what they meet with what the
 /// guaranteed tracer does.
 ///
 /// # Errors
@@ -106,7 +106,8 @@ pub fn compare(
     progress: &dyn Progress,
 ) -> Result<Comparison, RenderError> {
     let with = |method| Scene { tracer: scene.tracer.clone().method(method), ..scene.clone() };
-    let options = Options { samples: 1, crop: None, ..options.clone() };
+    let options = Options { samples: 1, ..options.clone() };
+    let region = options.region()?;
     let scene_of_judge = with(Method::Guaranteed);
     let judge = Judge::new(&scene_of_judge, &options, progress)?;
     let mut trials = Vec::new();
@@ -118,7 +119,7 @@ pub fn compare(
         };
         trials.push(Trial { method, outcome });
     }
-    Ok(Comparison { width: options.width, height: options.height, trials })
+    Ok(Comparison { width: region.width, height: region.height, trials })
 }
 
 /// What the guaranteed tracer found.
@@ -137,7 +138,8 @@ impl Judge {
         let renderer = Renderer::new(scene)?;
         let layers = renderer.layers(options, progress)?.0;
         let frame = Frame::new(&renderer, options)?;
-        let centers = (0..options.height).flat_map(|y| (0..options.width).map(move |x| (x, y)));
+        let Rect { x, y, width, height } = options.region()?;
+        let centers = (y..y + height).flat_map(|y| (x..x + width).map(move |x| (x, y)));
         let centers = centers.map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)) + 0.5);
         let rays: Vec<Ray> = centers.map(|center| frame.view.ray(center)).collect();
         let tolerance = tolerances(&frame, &rays, &layers);

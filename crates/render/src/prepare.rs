@@ -12,7 +12,9 @@ use crate::view::{CameraError, View, framed};
 use crate::wave::Way;
 use freikugel_field::ray::ExactRay;
 use freikugel_field::simd::{self, Level};
-use freikugel_field::{Aabb, Cells, Contract, Diagnostic, Extent, Field, MaterialId, Program, Structure, analyse};
+use freikugel_field::{
+    Aabb, Cells, Contract, Diagnostic, Extent, Field, Interval, MaterialId, Program, Structure, analyse,
+};
 use freikugel_scene::{Camera, Material, Method, Scene, Tracer};
 use glam::DVec3;
 use std::fmt;
@@ -116,6 +118,7 @@ impl<'s> Renderer<'s> {
         let mut extent = Extent::Empty;
         let mut scale = f64::INFINITY;
         let mut contracts = Vec::new();
+        let mut unscaled = Vec::new();
         let method = scene.tracer.method;
         for (index, object) in scene.objects.iter().enumerate() {
             let analysis = analyse(&object.shape).0.expect("faults were found when compiling");
@@ -137,15 +140,22 @@ impl<'s> Renderer<'s> {
             } else if analysis.extent != Extent::Empty {
                 match safe_scale(&analysis.contract) {
                     Some(own) => scale = scale.min(own),
-                    None if matches!(method, Method::Sphere | Method::Relaxed) => {
-                        return Err(PrepareError::NoScale { index, object: object.name.clone(), method });
-                    }
+                    None if matches!(method, Method::Sphere | Method::Relaxed) => unscaled.push(index),
                     // What has no scale is searched by intervals, or needs none.
                     None => {}
                 }
                 bounds = hull(bounds, analysis.extent);
                 marched.push(index);
             }
+        }
+
+        for index in unscaled {
+            let own = match bounds {
+                Extent::Finite(bounds) => scale_over(&fields[index..=index], widened(bounds))?,
+                Extent::Empty | Extent::Unbounded => None,
+            };
+            let object = &scene.objects[index].name;
+            scale = scale.min(own.ok_or_else(|| PrepareError::NoScale { index, object: object.clone(), method })?);
         }
 
         let structure = (!marched.is_empty())
@@ -201,6 +211,20 @@ impl<'s> Renderer<'s> {
 fn safe_scale(contract: &Contract) -> Option<f64> {
     let by_slope = contract.lipschitz.filter(|&slope| slope > 0.0).map(|slope| 1.0 / slope);
     if contract.is_safe_step() { Some(by_slope.map_or(1.0, |scale| scale.max(1.0))) } else { by_slope }
+}
+
+/// The largest factor that makes field values safe steps within a box, if its slope is bounded there.
+fn scale_over(field: &[Field], region: Aabb) -> Result<Option<f64>, PrepareError> {
+    let program = Structure::compile(field).map_err(PrepareError::Fields)?.program(DVec3::ZERO);
+    let side = |axis: usize| Interval::new(region.min[axis], region.max[axis]);
+    Ok(program.lipschitz_over([side(0), side(1), side(2)]).map(f64::recip))
+}
+
+/// A box that holds what lies on the border of another one.
+fn widened(bounds: Aabb) -> Aabb {
+    let far = bounds.min.abs().max(bounds.max.abs()).max_element();
+    let margin = BOX_MARGIN * bounds.size().max_element() + ROUNDING * far;
+    Aabb { min: bounds.min - margin, max: bounds.max + margin }
 }
 
 fn material(scene: &Scene, id: Option<MaterialId>) -> &Material {
@@ -328,11 +352,7 @@ impl<'r> Frame<'r> {
             Method::Relaxed => Way::Relaxed { relaxation: tracer.relaxation as f32 },
         };
         let bounds = match renderer.bounds {
-            Extent::Finite(bounds) => {
-                let far = bounds.min.abs().max(bounds.max.abs()).max_element();
-                let margin = BOX_MARGIN * bounds.size().max_element() + ROUNDING * far;
-                Some(Aabb { min: bounds.min - margin, max: bounds.max + margin })
-            }
+            Extent::Finite(bounds) => Some(widened(bounds)),
             Extent::Empty | Extent::Unbounded => None,
         };
         let region = bounds.unwrap_or_else(|| {
@@ -437,8 +457,8 @@ impl fmt::Display for PrepareError {
             Self::Tracing(fault) => f.write_str(fault),
             Self::NoScale { object, method, .. } => write!(
                 f,
-                "the tracer `{}` can't find {object:?}, whose slope is not known: nothing says how far a step may go \
-                 (the tracers `auto`, `guaranteed` and `fixed` need not know)",
+                "the tracer `{}` can't find {object:?}: how far a step may go is not known where its slope has no bound \
+                 (`auto`, `guaranteed` and `fixed` need not know; where all objects are finite, a bound may be found)",
                 method.name()
             ),
         }
