@@ -222,3 +222,60 @@ impl Valley {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use freikugel_field::{Field, Structure, shapes::*};
+
+    /// How a ray along x ends that begins at 0 and steps 0.3 wide.
+    fn run(field: impl Into<Field>, end: f32, has_sheets: bool) -> End {
+        let structure = Structure::compile(&[field.into()]).expect("a sound field");
+        let program = structure.program(glam::DVec3::ZERO);
+        let pace = Pace { scale: 1.0, step_factor: 1.0, max_steps: 1000 };
+        let start = Start {
+            id: 0,
+            origin: [0.0; 3],
+            direction: [1.0, 0.0, 0.0],
+            span: [0.0, end],
+            tolerance: [1e-5, 0.0],
+            steps: 0,
+            sharpness: 1.0,
+        };
+        let rules = Rules { pace, step: 0.3, has_sheets, is_soft: false };
+        let mut ends = Vec::new();
+        Fixed::default().run(&mut Evaluator::new(&program), program.whole(), rules, &[start], &mut ends);
+        assert_eq!(ends.len(), 1);
+        ends[0]
+    }
+
+    #[test]
+    fn a_change_of_sign_is_closed_in_on() {
+        for distance in [0.1, 1.0, 1.23, 7.77, 9.95] {
+            let end = run(sphere(1.0).at([distance + 1.0, 0.0, 0.0]), 10.0, false);
+            assert_eq!(end.fate, Fate::Hit);
+            assert!((f64::from(end.t) - distance).abs() < 2e-5, "{} for {distance}", end.t);
+            assert_eq!(end.steps, (distance / 0.3).ceil() as u32, "{distance}");
+        }
+    }
+
+    #[test]
+    fn the_bottom_of_a_valley_is_a_hit_if_it_is_a_zero() {
+        for distance in [1.6, 2.23, 7.77] {
+            let wall = || sheet([1.0, 0.5, 0.0]).at([distance, 0.0, 0.0]);
+            let end = run(wall(), 10.0, true);
+            assert_eq!(end.fate, Fate::Hit);
+            assert!((f64::from(end.t) - distance).abs() < 1e-4, "{} for {distance}", end.t);
+            // A ball beside the ray makes a valley, too, whose bottom is not 0.
+            let end = run(wall() | sphere(0.1).at([0.4, 0.15, 0.0]), 10.0, true);
+            assert!((f64::from(end.t) - distance).abs() < 1e-4, "{} for {distance}", end.t);
+        }
+    }
+
+    #[test]
+    fn what_is_thinner_than_a_step_or_lies_behind_the_end_is_missed() {
+        assert_eq!(run(cuboid([0.1, 1.0, 1.0]).at([1.35, 0.0, 0.0]), 10.0, false).fate, Fate::Passed);
+        assert_eq!(run(sphere(1.0).at([11.2, 0.0, 0.0]), 10.0, false).fate, Fate::Passed);
+        assert_eq!(run(sphere(1.0).at([10.9, 0.0, 0.0]), 10.0, false).fate, Fate::Hit);
+    }
+}

@@ -242,7 +242,8 @@ mod tests {
         let (bare, labelled) = (bare.draw(), labelled.draw());
         assert_eq!(labelled.width, bare.width + 3 * TEXT.advance() + GAP);
         assert!(labelled.height > bare.height + 4 * TEXT.line);
-        let is_ink = |pixel: &&Color| **pixel == INK;
+        // Edges are soft: few pixels are all ink.
+        let is_ink = |pixel: &&Color| pixel.iter().all(|&channel| channel < 128);
         assert_eq!(bare.pixels.iter().filter(is_ink).count(), 0);
         assert!(labelled.pixels.iter().filter(is_ink).count() > 100);
         assert_eq!(
