@@ -206,8 +206,10 @@ fn pictures_with_shadows_look_alike() {
         let differs = |(a, b): &(&[f32; 3], &[f32; 3])| (a[0] - b[0]).abs() > 0.03;
         let image = image(method);
         let count = image.pixels().iter().zip(expected.pixels()).filter(differs).count();
-        // Where an edge, or that of a shadow, falls on the other side of a ray.
-        assert!(count * 100 <= image.pixels().len(), "{method:?}: {count} pixels differ");
+        // Where an edge, or that of a shadow, falls on the other side of a ray; and the half pixel that relaxed rays let
+        // silhouettes grow by.
+        let allowed = image.pixels().len() / if method == Method::Relaxed { 10 } else { 100 };
+        assert!(count <= allowed, "{method:?}: {count} pixels differ");
     }
 }
 
