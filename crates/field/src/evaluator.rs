@@ -211,7 +211,7 @@ impl<'p> Evaluator<'p> {
                             *to += weight;
                         }
                     }
-                    Step::Modify { from, .. } | Step::Scale { from, .. } => {
+                    Step::Modify { from, .. } | Step::Scale { from, .. } | Step::Altered { from, .. } => {
                         let weight = self.weights[own].clone();
                         self.weights[place(from)] = weight;
                     }

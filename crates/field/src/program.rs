@@ -6,6 +6,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Graph, Slots};
+use crate::formula::Binary;
 use crate::kernel::{CombineFn, CombineKernels, Dual2, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels, affine};
 use crate::lower::Listing;
 use crate::operation::{Code, Derive, NO_REGION, Run, Step, Steps, inverse_of};
@@ -205,6 +206,8 @@ impl Program {
                 Step::Binary { op, a, b } => value = op.apply(values[a.index()], values[b.index()]),
                 Step::Power { from, exponent } => value = values[from.index()].powi(exponent),
                 Step::Surface { from, .. } => value = values[from.index()],
+                Step::Altered { op, from, by } => value = op.apply(values[from.index()], values[by.index()]),
+                Step::Warp { x, y, z } => point = [x, y, z].map(|id| values[id.index()]).into(),
             }
             points.push(point);
             values.push(value);
@@ -227,7 +230,13 @@ pub struct Part {
 impl Part {
     pub(crate) fn new(steps: Steps) -> Self {
         let one_by_one = OnceLock::new();
-        let is_measured = !steps.list.iter().any(|step| matches!(step, Step::Surface { .. }));
+        // A cut by a distance leaves a distance, everything else that formulas do has no scale.
+        let has_no_scale = |step: &Step| match step {
+            Step::Altered { op, .. } => *op != Binary::Max,
+            Step::Surface { .. } | Step::Warp { .. } => true,
+            _ => false,
+        };
+        let is_measured = !steps.list.iter().any(has_no_scale);
         Self {
             steps,
             is_measured,

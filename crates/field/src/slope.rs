@@ -55,7 +55,8 @@ impl Program {
             let Some(Part { bound, region }) = parts.pop() else {
                 return Some(0.0);
             };
-            let halves = halves(region).filter(|_| count < MOST_PARTS && bound > GOOD_ENOUGH * steepest);
+            let halves = halves(region, region.map(Interval::width))
+                .filter(|_| count < MOST_PARTS && bound > GOOD_ENOUGH * steepest);
             let Some(halves) = halves else {
                 return bound.is_finite().then_some(bound);
             };
@@ -90,9 +91,9 @@ impl PartialEq for Part {
 
 impl Eq for Part {}
 
-/// Both halves of a box across its longest edge, unless it is too short for that.
-pub(crate) fn halves(region: [Interval; 3]) -> Option<[[Interval; 3]; 2]> {
-    let axis = (0..3).fold(0, |best, axis| if region[axis].width() > region[best].width() { axis } else { best });
+/// Both halves of a box across the axis of the largest weight, unless it is too short for that.
+pub(crate) fn halves(region: [Interval; 3], weight: [f64; 3]) -> Option<[[Interval; 3]; 2]> {
+    let axis = (0..3).fold(0, |best, axis| if weight[axis] > weight[best] { axis } else { best });
     let (lo, middle, hi) = (region[axis].lo(), region[axis].middle(), region[axis].hi());
     if !(lo < middle && middle < hi) {
         return None;
@@ -133,12 +134,6 @@ impl Sloped {
         Self { value, gradient, norm: norm.min(length(gradient)) }
     }
 
-    /// A value of which nothing but the largest slope is known.
-    fn in_ball(value: Interval, norm: f64) -> Self {
-        let side = if norm.is_finite() { Interval::new(-norm, norm) } else { Interval::ENTIRE };
-        Self { value, gradient: [side; 3], norm }
-    }
-
     /// A function of this value, by its value and slope.
     fn chain(self, of: Dual<Interval, 1>) -> Self {
         let [slope] = of.gradient;
@@ -160,22 +155,55 @@ impl Sloped {
     }
 }
 
+impl Mapped {
+    /// The point with these values as its coordinates.
+    fn at(values: [Sloped; 3]) -> Self {
+        let rows = values.map(|value| value.gradient);
+        let norms = length(values.map(|value| Interval::point(value.norm)));
+        Self { point: values.map(|value| value.value), rows, norm: matrix_norm(&rows).min(norms) }
+    }
+}
+
 /// Computes bounds for one box after another.
-struct Sloper<'p> {
+pub(crate) struct Sloper<'p> {
     program: &'p Program,
     points: Vec<Mapped>,
     values: Vec<Sloped>,
 }
 
 impl<'p> Sloper<'p> {
-    fn new(program: &'p Program) -> Self {
+    pub(crate) fn new(program: &'p Program) -> Self {
         Self { program, points: Vec::new(), values: Vec::new() }
     }
 
     /// The largest slope over a box.
     fn bound(&mut self, region: [Interval; 3]) -> f64 {
+        self.enclose(region).map_or(0.0, |result| result.norm)
+    }
+
+    /// The values over a box, and by how much each axis makes them vary. The values come from intervals, and from the value
+    /// in the middle and the gradient (the mean value form), which is the better enclosure in small boxes.
+    pub(crate) fn survey(&mut self, region: [Interval; 3]) -> (Interval, [f64; 3]) {
+        let Some(Sloped { value, gradient, norm }) = self.enclose(region) else {
+            return (Interval::new(f64::INFINITY, f64::INFINITY), [0.0; 3]);
+        };
+        let spread = std::array::from_fn(|axis| gradient[axis].abs().hi() * region[axis].width());
+        if !value.contains(0.0) || !norm.is_finite() {
+            return (value, spread);
+        }
+        let middle = region.map(|side| Interval::point(side.middle()));
+        let offsets: [Interval; 3] = std::array::from_fn(|axis| region[axis] - middle[axis]);
+        let by_box = (0..3).fold(Interval::ZERO, |sum, axis| plus(sum, times(gradient[axis], offsets[axis])));
+        let by_ball = times_up(norm, length(offsets));
+        let drift = by_box.meet(Interval::new(-by_ball, by_ball));
+        let center = self.enclose(middle).map_or(value, |center| center.value);
+        (value.meet(center + drift), spread)
+    }
+
+    /// The value and slope over a box; nothing if there is nothing.
+    fn enclose(&mut self, region: [Interval; 3]) -> Option<Sloped> {
         let steps = &self.program.whole.steps;
-        let Some(result) = steps.result else { return 0.0 };
+        let result = steps.result?;
         let rows = std::array::from_fn(|i| std::array::from_fn(|j| Interval::point(if i == j { 1.0 } else { 0.0 })));
         let root = Mapped { point: region, rows, norm: 1.0 };
         self.points.clear();
@@ -186,12 +214,16 @@ impl<'p> Sloper<'p> {
             self.points.push(point);
             self.values.push(value);
         }
-        self.values[result.index()].norm
+        Some(self.values[result.index()])
     }
 
     /// The point that a step yields, if it is another one than the first.
     fn point(&self, step: &Step) -> Option<Mapped> {
-        let Step::Affine { from, constants } = *step else { return None };
+        let (from, constants) = match *step {
+            Step::Affine { from, constants } => (from, constants),
+            Step::Warp { x, y, z } => return Some(Mapped::at([x, y, z].map(|id| self.values[id.index()]))),
+            _ => return None,
+        };
         let from = &self.points[from.index()];
         let table = self.constants(constants);
         let matrix = DMat3::from_cols_slice(table);
@@ -208,9 +240,9 @@ impl<'p> Sloper<'p> {
     fn value(&self, step: &Step, list: &[Step]) -> Sloped {
         let at = |id: StepId| self.values[id.index()];
         match *step {
-            Step::Point | Step::Affine { .. } => Sloped::CONSTANT,
+            Step::Point | Step::Affine { .. } | Step::Warp { .. } => Sloped::CONSTANT,
             Step::Primitive { table, point, at, constants, slope, .. } => {
-                let Mapped { point, norm, .. } = self.points[point.index()];
+                let Mapped { point, rows, norm } = self.points[point.index()];
                 let slope = self.program.double[slope as usize];
                 let at = self.constants(at);
                 let constants = self.constants(constants);
@@ -227,7 +259,9 @@ impl<'p> Sloper<'p> {
                         value = value.meet(distance(middle) + Interval::new(-radius, radius));
                     }
                 }
-                Sloped::in_ball(value, times_up(slope, norm))
+                // Whatever its direction, a gradient in the mapped space enters by a column of the Jacobian matrix.
+                let gradient = [0, 1, 2].map(|axis| symmetric(times_up(slope, length(rows.map(|row| row[axis])))));
+                Sloped { value, gradient, norm: times_up(slope, norm) }
             }
             Step::Combine { table, a, b, constants } => {
                 // The slopes by both operands are shares that make 1.
@@ -235,12 +269,16 @@ impl<'p> Sloper<'p> {
                 let constants = self.constants(constants);
                 let value =
                     (table.kernels.interval)(a.value, b.value, &Constants::new(a.value, constants, constants.len()));
-                let norm = match (table.settle)(a.value, b.value, constants) {
-                    Settled::Open => a.norm.max(b.norm),
-                    Settled::First => a.norm,
-                    Settled::Second | Settled::NotSecond => b.norm,
-                };
-                Sloped::in_ball(value, norm)
+                match (table.settle)(a.value, b.value, constants) {
+                    Settled::Open => {
+                        let size = |axis: usize| a.gradient[axis].abs().hi().max(b.gradient[axis].abs().hi());
+                        let gradient = [0, 1, 2].map(|axis| symmetric(size(axis)));
+                        Sloped { value, gradient, norm: a.norm.max(b.norm) }
+                    }
+                    Settled::First => Sloped { value, ..a },
+                    Settled::Second => Sloped { value, ..b },
+                    Settled::NotSecond => Sloped { value, gradient: b.gradient.map(|side| -side), norm: b.norm },
+                }
             }
             Step::Modify { table, from, constants } => {
                 let from = at(from);
@@ -261,23 +299,7 @@ impl<'p> Sloper<'p> {
             }
             Step::Unary { op: Unary::Sqrt, from } => self.root(from, list),
             Step::Unary { op, from } => unary(at(from), |x| op.apply(x)),
-            Step::Binary { op: op @ (Binary::Min | Binary::Max), a, b } => {
-                let (a, b) = (at(a), at(b));
-                let value = op.apply(a.value, b.value);
-                let (lesser, greater) = if op == Binary::Min { (a, b) } else { (b, a) };
-                if lesser.value.hi() < greater.value.lo() {
-                    a
-                } else if greater.value.hi() < lesser.value.lo() {
-                    b
-                } else {
-                    a.either(b, value)
-                }
-            }
-            Step::Binary { op, a, b } => {
-                let (a, b) = (at(a), at(b));
-                let input = |value, gradient: [f64; 2]| Dual { value, gradient: gradient.map(Interval::point) };
-                a.chain2(b, op.apply(input(a.value, [1.0, 0.0]), input(b.value, [0.0, 1.0])))
-            }
+            Step::Binary { op, a, b } | Step::Altered { op, from: a, by: b } => binary(op, at(a), at(b)),
             Step::Power { from, exponent } => unary(at(from), |x| x.powi(exponent)),
             Step::Surface { from, .. } => at(from),
         }
@@ -337,6 +359,22 @@ fn unary(from: Sloped, f: impl Fn(Dual<Interval, 1>) -> Dual<Interval, 1>) -> Sl
     from.chain(f(Dual { value: from.value, gradient: [Interval::point(1.0)] }))
 }
 
+/// A function of two values.
+fn binary(op: Binary, a: Sloped, b: Sloped) -> Sloped {
+    if let Binary::Min | Binary::Max = op {
+        let (lesser, greater) = if op == Binary::Min { (a, b) } else { (b, a) };
+        return if lesser.value.hi() < greater.value.lo() {
+            a
+        } else if greater.value.hi() < lesser.value.lo() {
+            b
+        } else {
+            a.either(b, op.apply(a.value, b.value))
+        };
+    }
+    let input = |value, gradient: [f64; 2]| Dual { value, gradient: gradient.map(Interval::point) };
+    a.chain2(b, op.apply(input(a.value, [1.0, 0.0]), input(b.value, [0.0, 1.0])))
+}
+
 /// An upper bound of the spectral norm of all matrices with rows in these.
 ///
 /// The smaller one of two: the norm of the matrix in the middle and the Frobenius norm of the largest difference from it,
@@ -357,6 +395,11 @@ pub(crate) fn matrix_norm(rows: &[[Interval; 3]; 3]) -> f64 {
     let off = |i: usize| length(std::array::from_fn(|j| rows[i][j] - middle[i][j]));
     let by_middle = (spectral_norm(transposed) + length([0, 1, 2].map(|i| Interval::point(off(i))))).next_up();
     if by_middle < by_product { by_middle } else { by_product }
+}
+
+/// All numbers of at most this size.
+fn symmetric(size: f64) -> Interval {
+    if size.is_finite() { Interval::new(-size, size) } else { Interval::ENTIRE }
 }
 
 /// An upper bound of the length of all vectors in a box.

@@ -86,7 +86,7 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
             (name, work)
         })
         .collect(),
-        Kind::Place(_) | Kind::Paint | Kind::Formula => Vec::new(),
+        Kind::Place(_) | Kind::Paint | Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => Vec::new(),
     }
 }
 
@@ -120,7 +120,7 @@ fn every_kernel_gains_from_wider_vectors() {
         eprintln!("skipped: this machine has one instruction set only");
         return;
     };
-    let with_kernels = shapes::ALL.iter().filter(|shape| !matches!(shape.kind, Kind::Formula));
+    let with_kernels = shapes::ALL.iter().filter(|shape| common::is_measured(shape));
     let of_shapes = with_kernels.flat_map(|shape| {
         kernels(shape).into_iter().map(|(kind, work)| (format!("{} {kind}", shape.about.name), work))
     });

@@ -13,7 +13,8 @@ use crate::wave::Way;
 use freikugel_field::ray::ExactRay;
 use freikugel_field::simd::{self, Level};
 use freikugel_field::{
-    Aabb, Cells, Contract, Diagnostic, Extent, Field, Interval, MaterialId, Program, Structure, analyse,
+    Aabb, Cells, Contract, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Program, Structure, analyse,
+    find_extent,
 };
 use freikugel_scene::{Camera, Material, Method, Scene, Tracer};
 use glam::DVec3;
@@ -121,13 +122,21 @@ impl<'s> Renderer<'s> {
         let mut unscaled = Vec::new();
         let method = scene.tracer.method;
         for (index, object) in scene.objects.iter().enumerate() {
-            let analysis = analyse(&object.shape).0.expect("faults were found when compiling");
+            let mut analysis = analyse(&object.shape).0.expect("faults were found when compiling");
             contracts.push(analysis.contract);
+            let exact_ray = ExactRay::of(&object.shape);
+            if analysis.extent == Extent::Unbounded && exact_ray.is_none() {
+                // What is not there within the reach of the search may still be beyond it.
+                analysis.extent = match find_extent(&object.shape, &Limits::default()) {
+                    Extent::Finite(aabb) => Extent::Finite(aabb),
+                    Extent::Empty | Extent::Unbounded => Extent::Unbounded,
+                };
+            }
             if matches!(analysis.extent, Extent::Finite(_)) {
                 extent = hull(extent, analysis.extent);
             }
             // All other methods are there to be compared: each has to find all surfaces.
-            let exact_ray = (method == Method::Auto).then(|| ExactRay::of(&object.shape)).flatten();
+            let exact_ray = exact_ray.filter(|_| method == Method::Auto);
             if let Some(ray) = exact_ray {
                 let structure = Structure::compile(&fields[index..=index]).map_err(PrepareError::Fields)?;
                 let own = structure.regions().first().and_then(|region| region.material);
@@ -138,11 +147,11 @@ impl<'s> Renderer<'s> {
                 };
                 exact.push(Exact { ray, paint, structure });
             } else if analysis.extent != Extent::Empty {
-                match safe_scale(&analysis.contract) {
-                    Some(own) => scale = scale.min(own),
-                    None if matches!(method, Method::Sphere | Method::Relaxed) => unscaled.push(index),
-                    // What has no scale is searched by intervals, or needs none.
-                    None => {}
+                // What is no safe step is searched by intervals, or needs no scale, or gets one from its slope.
+                if analysis.contract.is_safe_step() {
+                    scale = scale.min(safe_scale(&analysis.contract));
+                } else if matches!(method, Method::Sphere | Method::Relaxed) {
+                    unscaled.push(index);
                 }
                 bounds = hull(bounds, analysis.extent);
                 marched.push(index);
@@ -150,12 +159,13 @@ impl<'s> Renderer<'s> {
         }
 
         for index in unscaled {
-            let own = match bounds {
-                Extent::Finite(bounds) => scale_over(&fields[index..=index], widened(bounds))?,
-                Extent::Empty | Extent::Unbounded => None,
+            let everywhere = contracts[index].lipschitz.filter(|_| contracts[index].within.is_none());
+            let slope = match bounds {
+                Extent::Finite(bounds) => slope_over(&fields[index..=index], widened(bounds))?.or(everywhere),
+                Extent::Empty | Extent::Unbounded => everywhere,
             };
-            let object = &scene.objects[index].name;
-            scale = scale.min(own.ok_or_else(|| PrepareError::NoScale { index, object: object.clone(), method })?);
+            let no_scale = || PrepareError::NoScale { index, object: scene.objects[index].name.clone(), method };
+            scale = scale.min(slope.ok_or_else(no_scale)?.recip());
         }
 
         let structure = (!marched.is_empty())
@@ -207,17 +217,16 @@ impl<'s> Renderer<'s> {
     }
 }
 
-/// The largest factor that makes field values safe steps.
-fn safe_scale(contract: &Contract) -> Option<f64> {
-    let by_slope = contract.lipschitz.filter(|&slope| slope > 0.0).map(|slope| 1.0 / slope);
-    if contract.is_safe_step() { Some(by_slope.map_or(1.0, |scale| scale.max(1.0))) } else { by_slope }
+/// The largest factor that keeps the steps of a field safe whose values are.
+fn safe_scale(contract: &Contract) -> f64 {
+    contract.lipschitz.filter(|&slope| slope > 0.0).map_or(1.0, |slope| (1.0 / slope).max(1.0))
 }
 
-/// The largest factor that makes field values safe steps within a box, if its slope is bounded there.
-fn scale_over(field: &[Field], region: Aabb) -> Result<Option<f64>, PrepareError> {
+/// A bound of a field's slope within a box, if there is one.
+fn slope_over(field: &[Field], region: Aabb) -> Result<Option<f64>, PrepareError> {
     let program = Structure::compile(field).map_err(PrepareError::Fields)?.program(DVec3::ZERO);
     let side = |axis: usize| Interval::new(region.min[axis], region.max[axis]);
-    Ok(program.lipschitz_over([side(0), side(1), side(2)]).map(f64::recip))
+    Ok(program.lipschitz_over([side(0), side(1), side(2)]))
 }
 
 /// A box that holds what lies on the border of another one.

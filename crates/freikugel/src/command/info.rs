@@ -1,7 +1,10 @@
 //! `freikugel info`: what a scene is made of.
 
 use super::{Failure, input, print};
-use freikugel::field::{Contract, Extent, Field, Metric, ParamKind, Structure, analyse, extent};
+use freikugel::field::shape::FormulaParam;
+use freikugel::field::{
+    Contract, Extent, Field, Formula, Limits, Metric, ParamKind, Structure, analyse, explore, extent, find_extent,
+};
 use freikugel::scene::Scene;
 use std::fmt::Write;
 use std::path::Path;
@@ -17,7 +20,7 @@ fn describe(scene: &Scene) -> String {
     let (mut nodes, mut primitives) = (0, 0);
     for object in &scene.objects {
         let material = object.material.and_then(|id| scene.materials.get(id.0 as usize)).map_or("", |(name, _)| name);
-        let _ = writeln!(text, "object {:?}, material {material:?}, {}", object.name, boxed(extent(&object.shape)));
+        let _ = writeln!(text, "object {:?}, material {material:?}, {}", object.name, extent_of(&object.shape));
         if let (Some(analysis), _) = analyse(&object.shape) {
             nodes += analysis.nodes;
             primitives += analysis.primitives;
@@ -39,12 +42,23 @@ fn describe(scene: &Scene) -> String {
     text
 }
 
+/// The box of an object, and whether it had to be looked for.
+fn extent_of(field: &Field) -> String {
+    match extent(field) {
+        Extent::Unbounded => match find_extent(field, &Limits::default()) {
+            Extent::Unbounded => boxed(Extent::Unbounded),
+            found => format!("{} (found)", boxed(found)),
+        },
+        known => boxed(known),
+    }
+}
+
 fn tree(field: &Field, depth: usize, scene: &Scene, text: &mut String) {
     let node = field.node();
     let about = &node.shape.about;
     let _ = write!(text, "{:indent$}{}", "", about.name, indent = 2 * depth);
-    if let Some(Ok(formula)) = &node.formula {
-        let _ = write!(text, " f={:?}", formula.text());
+    for (param, formula) in about_formulas(field) {
+        let _ = write!(text, " {}={:?}", param.name, formula.text());
     }
     for (index, param) in about.params.iter().enumerate() {
         let _ = write!(text, " {}={}", param.name, written(param.kind, &node.argument(index)));
@@ -52,13 +66,22 @@ fn tree(field: &Field, depth: usize, scene: &Scene, text: &mut String) {
     if let Some((name, _)) = node.material.and_then(|id| scene.materials.get(id.0 as usize)) {
         let _ = write!(text, " material={name:?}");
     }
-    if let (Some(analysis), _) = analyse(field) {
+    if let Some(analysis) = explore(field, &Limits::default()) {
         let _ = write!(text, "  [{}]", promise(analysis.contract));
     }
     text.push('\n');
     for child in &node.children {
         tree(child, depth + 1, scene, text);
     }
+}
+
+/// The formulas of a node that are not what they are if left out.
+fn about_formulas(field: &Field) -> impl Iterator<Item = (&'static FormulaParam, &Formula)> {
+    let node = field.node();
+    let sound = node.formulas.iter().map(|formula| formula.as_ref().ok());
+    node.shape.formulas().iter().zip(sound).filter_map(|(param, formula)| {
+        formula.filter(|formula| param.default != Some(formula.text())).map(|formula| (param, formula))
+    })
 }
 
 /// An argument as a scene file has it.
@@ -92,9 +115,12 @@ fn promise(contract: Contract) -> String {
     match contract.lipschitz {
         Some(1.0) => {}
         Some(constant) => {
-            let _ = write!(text, ", slope at most {constant}");
+            let _ = write!(text, ", slope at most {}", brief(constant));
         }
         None => text.push_str(", slope unknown"),
+    }
+    if let (Some(_), Some(within)) = (contract.lipschitz, contract.within) {
+        let _ = write!(text, " within {} to {}", corner(within.min), corner(within.max));
     }
     text
 }
@@ -103,9 +129,22 @@ fn boxed(extent: Extent) -> String {
     match extent {
         Extent::Empty => "empty".into(),
         Extent::Unbounded => "unbounded".into(),
-        Extent::Finite(aabb) => {
-            let corner = |c: glam::DVec3| format!("({:.4}, {:.4}, {:.4})", c.x, c.y, c.z);
-            format!("box {} to {}", corner(aabb.min), corner(aabb.max))
-        }
+        Extent::Finite(aabb) => format!("box {} to {}", corner(aabb.min), corner(aabb.max)),
+    }
+}
+
+/// Four decimals of each coordinate.
+fn corner(c: glam::DVec3) -> String {
+    format!("({:.4}, {:.4}, {:.4})", c.x, c.y, c.z)
+}
+
+/// Four digits of a number, rounded up.
+fn brief(number: f64) -> String {
+    let unit = 10f64.powf(number.abs().max(f64::MIN_POSITIVE).log10().floor() - 3.0);
+    let rounded = (number / unit).ceil() * unit;
+    if rounded < 1e6 {
+        format!("{rounded:.4}").trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        format!("{rounded:.3e}")
     }
 }
