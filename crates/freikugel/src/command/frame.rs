@@ -26,13 +26,11 @@ pub(super) struct Frame {
 
 impl Frame {
     /// The options with what was asked for.
-    pub(super) fn over(&self, options: Options) -> Options {
-        Options {
-            width: self.width.unwrap_or(options.width),
-            height: self.height.unwrap_or(options.height),
-            threads: self.threads.or(options.threads),
-            ..options
-        }
+    pub(super) fn over(&self, mut options: Options) -> Options {
+        options.width = self.width.unwrap_or(options.width);
+        options.height = self.height.unwrap_or(options.height);
+        options.threads = self.threads.or(options.threads);
+        options
     }
 }
 
@@ -60,13 +58,14 @@ enum Quality {
 
 impl Samples {
     /// The options with what was asked for.
-    pub(super) fn over(&self, options: Options) -> Options {
+    pub(super) fn over(&self, mut options: Options) -> Options {
         let by_name = self.quality.map(|quality| match quality {
             Quality::Draft => 1,
             Quality::Normal => 16,
             Quality::Fine => 64,
         });
-        Options { samples: self.samples.or(by_name).unwrap_or(options.samples), ..options }
+        options.samples = self.samples.or(by_name).unwrap_or(options.samples);
+        options
     }
 }
 
