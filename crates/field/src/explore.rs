@@ -234,7 +234,7 @@ fn farthest(
     goal: &Goal,
     score: impl Fn(&[Interval; 3]) -> Interval,
 ) -> Found {
-    let mut sloper = Sloper::new(program);
+    let mut sloper = Sloper::new(program, &program.whole().steps);
     let mut candidates = BinaryHeap::new();
     // The largest score of a point that was found.
     let mut found = f64::NEG_INFINITY;

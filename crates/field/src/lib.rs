@@ -54,7 +54,7 @@ pub mod structure;
 pub mod vector;
 
 pub use analysis::{Analysis, MAX_DEPTH, analyse, extent};
-pub use cells::{Cell, Cells, Occupancy, Splitter};
+pub use cells::{Cell, Cells, Occupancy, Slope, Splitter};
 pub use contract::{Aabb, Contract, Extent, Metric};
 pub use diagnostic::{Diagnostic, Severity};
 pub use enclose::{Bounds, Encloser, Stretches};

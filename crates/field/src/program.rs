@@ -221,6 +221,7 @@ impl Program {
 pub struct Part {
     pub(crate) steps: Steps,
     is_measured: bool,
+    is_warped: bool,
     listing: OnceLock<Listing>,
     one_by_one: OnceLock<Listing>,
     kept: OnceLock<Listing>,
@@ -237,9 +238,11 @@ impl Part {
             _ => false,
         };
         let is_measured = !steps.list.iter().any(has_no_scale);
+        let is_warped = !is_measured && !steps.list.iter().any(|step| matches!(step, Step::Surface { .. }));
         Self {
             steps,
             is_measured,
+            is_warped,
             listing: OnceLock::new(),
             one_by_one,
             kept: OnceLock::new(),
@@ -250,6 +253,12 @@ impl Part {
     /// Whether all values in it are distances or bounds of them up to a factor, so that rays can march by them.
     pub fn is_measured(&self) -> bool {
         self.is_measured
+    }
+
+    /// Whether its values are distances but for what warps and displacements do to them, so that rays can march by them where
+    /// [`Cells::slope`](crate::Cells::slope) says how steep they are.
+    pub fn is_warped(&self) -> bool {
+        self.is_warped
     }
 
     /// How many steps there are.

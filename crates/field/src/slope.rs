@@ -7,7 +7,7 @@
 //! (interval branch and bound; Hansen and Walster, "Global Optimization Using Interval Analysis", 2004).
 
 use crate::formula::{Binary, Unary};
-use crate::operation::{Run, Step, StepId};
+use crate::operation::{Run, Step, StepId, Steps};
 use crate::program::Program;
 use crate::scalar::{Constants, Dual, Interval, Scalar};
 use crate::shape::Settled;
@@ -34,7 +34,7 @@ impl Program {
     /// point, may have something in common with that part.
     pub(crate) fn lipschitz_where(&self, region: [Interval; 3], meets: impl Fn(&[Interval; 3]) -> bool) -> Option<f64> {
         let mut parts = BinaryHeap::new();
-        let mut sloper = Sloper::new(self);
+        let mut sloper = Sloper::new(self, &self.whole().steps);
         let mut steepest = 0.0_f64;
         let mut pending = vec![(region, self.lipschitz().unwrap_or(f64::INFINITY))];
         let mut count = 0;
@@ -167,17 +167,18 @@ impl Mapped {
 /// Computes bounds for one box after another.
 pub(crate) struct Sloper<'p> {
     program: &'p Program,
+    steps: &'p Steps,
     points: Vec<Mapped>,
     values: Vec<Sloped>,
 }
 
 impl<'p> Sloper<'p> {
-    pub(crate) fn new(program: &'p Program) -> Self {
-        Self { program, points: Vec::new(), values: Vec::new() }
+    pub(crate) fn new(program: &'p Program, steps: &'p Steps) -> Self {
+        Self { program, steps, points: Vec::new(), values: Vec::new() }
     }
 
     /// The largest slope over a box.
-    fn bound(&mut self, region: [Interval; 3]) -> f64 {
+    pub(crate) fn bound(&mut self, region: [Interval; 3]) -> f64 {
         self.enclose(region).map_or(0.0, |result| result.norm)
     }
 
@@ -202,7 +203,7 @@ impl<'p> Sloper<'p> {
 
     /// The value and slope over a box; nothing if there is nothing.
     fn enclose(&mut self, region: [Interval; 3]) -> Option<Sloped> {
-        let steps = &self.program.whole.steps;
+        let steps = self.steps;
         let result = steps.result?;
         let rows = std::array::from_fn(|i| std::array::from_fn(|j| Interval::point(if i == j { 1.0 } else { 0.0 })));
         let root = Mapped { point: region, rows, norm: 1.0 };

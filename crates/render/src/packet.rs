@@ -9,10 +9,16 @@ use crate::march::{End, Fate, March, Pace, Start};
 use crate::search::Search;
 use crate::vector::Triple;
 use freikugel_field::simd::{self, Level};
-use freikugel_field::{Cell, Cells, Encloser, Evaluator, Occupancy, Part, Splitter};
+use freikugel_field::{Cell, Cells, Encloser, Evaluator, Occupancy, Splitter};
 
 /// A part with this many steps is not worth splitting further: the point and two primitives with their union.
 const SMALL_PART: usize = 8;
+
+/// The same for a part with a warp or a displacement, whose formulas count, too.
+const SMALL_WARPED: usize = 32;
+
+/// Where the field is steeper than this, a search by intervals needs fewer looks than a march would need steps.
+const STEEP: f32 = 16.0;
 
 /// A box this many pixels wide, as seen from the camera, is not split further: fewer rays meet it than fill the lanes.
 const CELL_PIXELS: f32 = 24.0;
@@ -31,8 +37,19 @@ pub(crate) struct Space<'f> {
     pub(crate) eye: Triple,
     pub(crate) pixel: [f32; 2],
     pub(crate) pace: Pace,
-    /// Whether distances are searched like formulas.
-    pub(crate) searches_all: bool,
+    pub(crate) manner: Manner,
+}
+
+/// How rays travel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Manner {
+    /// From cell to cell, in each as its part allows: marching by distances, searching for the zeros of formulas.
+    Fitting,
+    /// From cell to cell, searching in all of them. A penumbra is made of clearances, which no search finds: for the least
+    /// ratio rays march all the same.
+    Searching,
+    /// Marching through one cell that holds the whole field.
+    Plain,
 }
 
 /// What rays look for.
@@ -336,9 +353,9 @@ impl<'f> Trip<'_, 'f, '_> {
         evaluations
     }
 
-    /// Whether rays march by the values of a part. A penumbra is made of clearances, which no search finds.
-    fn is_marched(&self, part: &Part) -> bool {
-        part.is_measured() && (!self.space.searches_all || self.quest == Quest::Least)
+    /// Whether rays march by values where that is safe.
+    fn may_march(&self) -> bool {
+        self.space.manner != Manner::Searching || self.quest == Quest::Least
     }
 
     fn is_of_no_interest(&self, cell: &Cell) -> bool {
@@ -347,7 +364,14 @@ impl<'f> Trip<'_, 'f, '_> {
 
     fn is_small(&self, cell: &Cell) -> bool {
         let part = cell.part();
-        if cell.occupancy() != Occupancy::Surface || (part.size() <= SMALL_PART && self.is_marched(part)) {
+        if self.space.manner == Manner::Plain
+            || cell.occupancy() != Occupancy::Surface
+            || (part.size() <= SMALL_PART && part.is_measured() && self.may_march())
+        {
+            return true;
+        }
+        if part.is_warped() && self.may_march() && part.size() <= SMALL_WARPED && self.space.cells.slope(cell).is_tight
+        {
             return true;
         }
         let (middle, half, eye) = (cell.middle(), cell.half(), self.space.eye);
@@ -380,7 +404,7 @@ impl<'f> Trip<'_, 'f, '_> {
                 bundle.met.push(Met { ray: group.ray[ray], span });
             }
         }
-        self.march_met(bundle, root)
+        self.march_met(bundle, root, self.pace_of(root).filter(|_| root.part().is_measured()))
     }
 
     /// Lets the rays of a group that meet a cell march through it.
@@ -393,7 +417,7 @@ impl<'f> Trip<'_, 'f, '_> {
             Met { ray: group.ray[place], span }
         }));
         let finds = bundle.found.len();
-        let evaluations = self.march_met(bundle, cell);
+        let evaluations = self.march_met(bundle, cell, self.pace_of(cell));
         if bundle.found.len() > finds {
             for group in &mut bundle.groups[..=depth] {
                 group.stop(&bundle.states);
@@ -402,29 +426,43 @@ impl<'f> Trip<'_, 'f, '_> {
         evaluations
     }
 
-    /// Lets the rays in `bundle.met` march where the part of `cell` holds.
-    fn march_met(&mut self, bundle: &mut Bundle, cell: &'f Cell) -> u64 {
-        let is_measured = self.is_marched(cell.part());
+    /// How rays march in a cell by the values of its part, if they can. Where space is warped, that depends on the cell.
+    fn pace_of(&self, cell: &Cell) -> Option<Pace> {
+        let pace = self.space.pace;
+        if !self.may_march() {
+            return None;
+        }
+        // The pace of plain marches suits formulas, too, but makes no clearances of their values.
+        if cell.part().is_measured() || (self.space.manner == Manner::Plain && self.quest != Quest::Least) {
+            return Some(pace);
+        }
+        let slope = cell.part().is_warped().then(|| self.space.cells.slope(cell).bound)?;
+        (slope > 0.0 && slope <= STEEP).then(|| Pace { scale: 1.0 / slope, ..pace })
+    }
+
+    /// Lets the rays in `bundle.met` march where the part of `cell` holds; without a pace, they search.
+    fn march_met(&mut self, bundle: &mut Bundle, cell: &'f Cell, pace: Option<Pace>) -> u64 {
         // Without a scale there is no clearance: a surface dims all or nothing.
-        let is_soft = self.quest == Quest::Least && is_measured;
+        let is_soft = self.quest == Quest::Least && pace.is_some();
+        let scale = pace.map_or(1.0, |pace| pace.scale);
         for &Met { ray, span } in &bundle.met {
             let (start, state) = (&bundle.starts[ray as usize], &bundle.states[ray as usize]);
             if let (true, Occupancy::Outside(clearance)) = (is_soft, cell.occupancy())
-                && clearance * self.space.pace.scale * start.sharpness >= state.factor * span[1]
+                && clearance * scale * start.sharpness >= state.factor * span[1]
             {
                 continue;
             }
             let start = Start { id: ray, span, steps: state.steps, ..*start };
-            match is_measured {
-                true => self.march.push(&start, [state.factor, state.before]),
-                false => self.search.push(&start),
+            match pace {
+                Some(_) => self.march.push(&start, [state.factor, state.before]),
+                None => self.search.push(&start),
             }
         }
         self.ends.clear();
-        let evaluations = match is_soft {
-            _ if !is_measured => self.search.run(self.encloser, cell.part(), self.space.pace, self.ends),
-            false => self.march.hard(self.field, cell.part(), self.space.pace, self.ends),
-            true => self.march.soft(self.field, cell.part(), self.space.pace, self.ends),
+        let evaluations = match pace {
+            None => self.search.run(self.encloser, cell.part(), self.space.pace, self.ends),
+            Some(pace) if is_soft => self.march.soft(self.field, cell.part(), pace, self.ends),
+            Some(pace) => self.march.hard(self.field, cell.part(), pace, self.ends),
         };
         let place = self.places.len() as u32;
         let finds = bundle.found.len();

@@ -355,9 +355,8 @@ impl<'r> Frame<'r> {
         let tolerance = Tolerance::new([fixed, growth].map(|width| width / 2.0 * share), tracer);
         let step = tracer.step.unwrap_or(size * FIXED_STEP) as f32;
         let way = match tracer.method {
-            Method::Auto | Method::Guaranteed => Way::Cells,
+            Method::Auto | Method::Guaranteed | Method::Sphere => Way::Packets,
             Method::Fixed => Way::Fixed { step, has_sheets: renderer.paints.iter().any(|paint| paint.is_sheet) },
-            Method::Sphere => Way::Sphere,
             Method::Relaxed => Way::Relaxed { relaxation: tracer.relaxation as f32 },
         };
         let bounds = match renderer.bounds {

@@ -5,7 +5,7 @@
 
 use crate::march::{End, Fate, Start};
 use crate::material::{Footprint, Surface};
-use crate::packet::{Quest, Space};
+use crate::packet::{Manner, Quest, Space};
 use crate::prepare::{Frame, rounding};
 use crate::stats::Stats;
 use crate::vector::{Triple, add_scaled, dot, length, scaled};
@@ -393,8 +393,12 @@ impl Frame<'_> {
     /// What marching rays travel through.
     pub(crate) fn space(&self) -> Option<Space<'_>> {
         let cells = self.cells.as_ref()?;
-        let searches_all = self.renderer.scene.tracer.method == Method::Guaranteed;
-        Some(Space { cells, eye: self.eye, pixel: self.footprint, pace: self.pace, searches_all })
+        let manner = match self.renderer.scene.tracer.method {
+            Method::Auto => Manner::Fitting,
+            Method::Guaranteed => Manner::Searching,
+            Method::Fixed | Method::Sphere | Method::Relaxed => Manner::Plain,
+        };
+        Some(Space { cells, eye: self.eye, pixel: self.footprint, pace: self.pace, manner })
     }
 
     /// The width of the cone around a ray at a distance from the camera.

@@ -1,11 +1,11 @@
 //! One interface to all methods of tracing: a wave of starts goes in, ends come out.
 //!
-//! By default ([`Way::Cells`]) rays travel in packets through cells, in which only that part of the field is evaluated that
-//! matters there. The other methods are plain: they evaluate the whole field at each step, and exist for comparison and
-//! explanation.
+//! By default rays travel in packets through cells, in which only that part of the field is evaluated that matters there.
+//! The plain methods, which exist for comparison and explanation, evaluate the whole field at each step: sphere tracing is
+//! a packet in a single cell, the others have files of their own.
 
 use crate::fixed::{Fixed, Rules};
-use crate::march::{End, Fate, March, Start};
+use crate::march::{End, Fate, Start};
 use crate::packet::{Packet, Quest, Space};
 use crate::relaxed::Relaxed;
 use freikugel_field::{Cell, Encloser, Evaluator, Splitter};
@@ -13,12 +13,10 @@ use freikugel_field::{Cell, Encloser, Evaluator, Splitter};
 /// How rays get from their starts to their ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Way {
-    /// In packets through cells: see [`crate::packet`].
-    Cells,
+    /// In packets: see [`crate::packet`].
+    Packets,
     /// By steps of one length in world units: see [`crate::fixed`].
     Fixed { step: f32, has_sheets: bool },
-    /// By sphere tracing with the whole field: see [`crate::march`].
-    Sphere,
     /// By sphere tracing with longer steps: see [`crate::relaxed`].
     Relaxed { relaxation: f32 },
 }
@@ -29,7 +27,6 @@ pub(crate) struct Wave<'f> {
     packet: Packet<'f>,
     /// What waits to be traced in a plain way.
     starts: Vec<Start>,
-    march: March,
     fixed: Fixed,
     relaxed: Relaxed,
 }
@@ -40,7 +37,6 @@ impl<'f> Wave<'f> {
             way,
             packet: Packet::default(),
             starts: Vec::new(),
-            march: March::default(),
             fixed: Fixed::default(),
             relaxed: Relaxed::default(),
         }
@@ -49,8 +45,8 @@ impl<'f> Wave<'f> {
     /// Adds a ray.
     pub(crate) fn push(&mut self, start: &Start) {
         match self.way {
-            Way::Cells => self.packet.push(start),
-            Way::Fixed { .. } | Way::Sphere | Way::Relaxed { .. } => self.starts.push(*start),
+            Way::Packets => self.packet.push(start),
+            Way::Fixed { .. } | Way::Relaxed { .. } => self.starts.push(*start),
         }
     }
 
@@ -68,8 +64,8 @@ impl<'f> Wave<'f> {
     /// The cell in which a ray of the last wave met something: [`End::place`].
     pub(crate) fn cell(&self, space: &Space<'f>, place: u32) -> &'f Cell {
         match self.way {
-            Way::Cells => self.packet.places[place as usize],
-            Way::Fixed { .. } | Way::Sphere | Way::Relaxed { .. } => space.cells.root(),
+            Way::Packets => self.packet.places[place as usize],
+            Way::Fixed { .. } | Way::Relaxed { .. } => space.cells.root(),
         }
     }
 
@@ -85,24 +81,20 @@ impl<'f> Wave<'f> {
         ends: &mut Vec<End>,
     ) -> u64 {
         let (whole, pace) = (space.cells.root().part(), space.pace);
-        // Without a scale there is no clearance: a surface dims all or nothing.
-        let is_soft = quest == Quest::Least && whole.is_measured();
         let first = ends.len();
         let evaluations = match self.way {
-            Way::Cells => return self.packet.travel(space, quest, field, encloser, splitter, ends),
-            Way::Fixed { step, has_sheets } => {
-                self.fixed.run(field, whole, Rules { pace, step, has_sheets, is_soft }, &self.starts, ends)
-            }
+            Way::Packets => return self.packet.travel(space, quest, field, encloser, splitter, ends),
             // Looking for the least ratio of clearance to distance, no clearance may be jumped over.
-            Way::Sphere | Way::Relaxed { .. } if is_soft => {
-                self.starts.iter().for_each(|start| self.march.push(start, [1.0, 0.0]));
-                self.march.soft(field, whole, pace, ends)
-            }
-            Way::Sphere => {
-                self.starts.iter().for_each(|start| self.march.push(start, [1.0, 0.0]));
-                self.march.hard(field, whole, pace, ends)
+            Way::Relaxed { .. } if quest == Quest::Least => {
+                self.starts.drain(..).for_each(|start| self.packet.push(&start));
+                return self.packet.travel(space, quest, field, encloser, splitter, ends);
             }
             Way::Relaxed { relaxation } => self.relaxed.run(field, whole, pace, relaxation, &self.starts, ends),
+            Way::Fixed { step, has_sheets } => {
+                // Without a scale there is no clearance: a surface dims all or nothing.
+                let is_soft = quest == Quest::Least && whole.is_measured();
+                self.fixed.run(field, whole, Rules { pace, step, has_sheets, is_soft }, &self.starts, ends)
+            }
         };
         self.starts.clear();
         for end in &mut ends[first..] {

@@ -9,15 +9,15 @@ use freikugel_render::Renderer;
 use freikugel_scene::{Ambient, Scene};
 use glam::DVec3;
 
-const WIDTH: u32 = 48;
-const HEIGHT: u32 = 48;
+const WIDTH: u32 = 40;
+const HEIGHT: u32 = 40;
 
 /// The height of the view, and of the camera above the ground.
 const VIEW: f64 = 3.2;
 const EYE: f64 = 6.0;
 
 /// Samples along each ray of the reference, over this depth on either side of the ground.
-const SAMPLES: u32 = 2500;
+const SAMPLES: u32 = 1000;
 const DEPTH: f64 = 2.5;
 
 /// A surface this near to a ray, as a field value, may count as met or as missed.
