@@ -1,5 +1,6 @@
 //! The project's own chores: `cargo xtask help` lists them.
 
+mod gallery;
 mod probe;
 mod run;
 mod shapes;
@@ -13,7 +14,7 @@ usage: cargo xtask COMMAND
   test          everything a change must pass; installs what it needs and says so
   shapes        writes the list of shapes from the files under crates/field/src/shapes
   schema        writes schema/scene.schema.json
-  gallery       renders all scenes into gallery/
+  gallery       renders all scenes and contact sheets into gallery/
   probe-shape   proves that a new shape needs one file and nothing else
 ";
 
@@ -23,7 +24,7 @@ fn main() -> ExitCode {
         ["test"] => test::all(),
         ["shapes"] => shapes::write(&run::root()),
         ["schema"] => run::schema(&run::root()),
-        ["gallery"] => run::gallery(&run::root()),
+        ["gallery"] => gallery::gallery(),
         ["probe-shape"] => probe::shape(),
         ["help" | "--help" | "-h"] => {
             print!("{USAGE}");

@@ -54,33 +54,3 @@ pub(crate) fn schema(root: &Path) -> Result {
     std::fs::create_dir_all(path.parent().expect("a file in a folder")).map_err(|e| e.to_string())?;
     std::fs::write(&path, text).map_err(|e| format!("can't write {}: {e}", path.display()))
 }
-
-/// Renders every scene into a picture of the gallery.
-pub(crate) fn gallery(root: &Path) -> Result {
-    run(root, "cargo", &["build", "--release", "-p", "freikugel"])?;
-    let program = root.join("target/release/freikugel");
-    for scene in scenes(&root.join("scenes"))? {
-        let below = scene.strip_prefix(root.join("scenes")).expect("found below it").with_extension("png");
-        let picture = root.join("gallery").join(below);
-        std::fs::create_dir_all(picture.parent().expect("a file in a folder")).map_err(|e| e.to_string())?;
-        let (scene, picture) = (scene.display().to_string(), picture.display().to_string());
-        run(root, &program.display().to_string(), &["render", &scene, "-o", &picture])?;
-    }
-    Ok(())
-}
-
-/// All scene files below a folder, in order.
-pub(crate) fn scenes(folder: &Path) -> Result<Vec<PathBuf>> {
-    let mut found = Vec::new();
-    let entries = std::fs::read_dir(folder).map_err(|e| format!("can't read {}: {e}", folder.display()))?;
-    for entry in entries {
-        let path = entry.map_err(|e| e.to_string())?.path();
-        if path.is_dir() {
-            found.extend(scenes(&path)?);
-        } else if path.extension().is_some_and(|e| e == "json") {
-            found.push(path);
-        }
-    }
-    found.sort();
-    Ok(found)
-}

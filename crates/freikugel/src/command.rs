@@ -4,11 +4,15 @@
 //! Ctrl-C.
 
 mod check;
+mod compare;
+mod frame;
 mod help;
 mod info;
 mod input;
 mod interrupt;
 mod render;
+mod sheet;
+mod sweep;
 
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
@@ -18,6 +22,8 @@ const EXAMPLES: &str = "\
 Examples:
   freikugel render scenes/first-light.json -o first-light.png
   freikugel render cup.json -o cup.exr --width 1920 --height 1080 --quality fine
+  freikugel sweep cup.json --vary tracer.max_steps=5,10,100 -o steps.png
+  freikugel compare cup.json
   freikugel check cup.json
   freikugel help shapes torus";
 
@@ -34,6 +40,10 @@ pub(crate) struct Arguments {
 enum Command {
     /// Render a picture of a scene.
     Render(render::Arguments),
+    /// Render a scene with several values of a number, as a contact sheet.
+    Sweep(sweep::Arguments),
+    /// Compare all tracers on a scene: steps, evaluations, time, wrong pixels.
+    Compare(compare::Arguments),
     /// Report the mistakes of scenes, and nothing else.
     Check(SceneFiles),
     /// Show what a scene is made of: its tree, contracts, boxes, and counts.
@@ -100,6 +110,8 @@ fn print(text: &str) -> Result<(), Failure> {
 pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Check(files) => check::run(&files.scenes),
         Command::Info(file) => info::run(&file.scene),
         Command::Schema => {

@@ -49,7 +49,7 @@ pub mod prelude {
     pub use freikugel_field::{Axis, Field, MaterialId};
     pub use freikugel_render::{Image, Options, Rendered, Stats};
     pub use freikugel_scene::{
-        Ambient, Background, Camera, Falloff, Light, Material, Model, Object, Occlusion, Overbright, Pattern, Picture,
-        Point, Projection, Scene, Shadow, Spot, Sun, Tracer,
+        Ambient, Background, Camera, Falloff, Light, Material, Method, Model, Object, Occlusion, Overbright, Pattern,
+        Picture, Point, Projection, Scene, Shadow, Spot, Sun, Tracer,
     };
 }

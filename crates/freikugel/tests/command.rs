@@ -341,3 +341,151 @@ fn links_and_devices_are_written_through() {
     assert_eq!(code(&folder.run(&["render", "ball.json", "-o", "null.png"])), 0);
     assert!(!Path::new("/dev/null").is_file());
 }
+
+/// Width and height of a PNG file.
+fn size(path: &Path) -> (u32, u32) {
+    let file = std::io::BufReader::new(std::fs::File::open(path).expect("there"));
+    let reader = png::Decoder::new(file).read_info().expect("a PNG");
+    (reader.info().width, reader.info().height)
+}
+
+#[test]
+fn a_tracer_can_be_chosen_and_is_named_in_the_statistics() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL);
+    for tracer in ["auto", "fixed", "sphere", "relaxed", "guaranteed"] {
+        let output =
+            folder.run(&["render", "ball.json", "-o", "x.png", "--tracer", tracer, "--stats", "stats.json", "--quiet"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let stats: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(folder.path("stats.json")).expect("there")).expect("JSON");
+        assert_eq!(stats["tracer"], tracer);
+        assert!(stats["hits"].as_u64().expect("a count") > 100, "{tracer}");
+    }
+    let output = folder.run(&["render", "ball.json", "--tracer", "spere"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("auto, fixed, sphere, relaxed, guaranteed"), "{}", stderr(&output));
+    let output = folder.run(&["render", "ball.json", "--warning-color", "pink"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("#rrggbb"), "{}", stderr(&output));
+
+    folder
+        .write("wave.json", r#"{ "objects": [ { "name": "wave", "shape": { "formula": "z - sin(x) * sin(y)" } } ] }"#);
+    let output = folder.run(&["render", "wave.json", "--tracer", "sphere"]);
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).contains("`sphere` can't find \"wave\""), "{}", stderr(&output));
+    assert!(!folder.path("wave.png").exists());
+}
+
+#[test]
+fn compare_prints_a_table_and_writes_sheet_pictures_and_figures() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL);
+    let output = folder.run(&["compare", "ball.json", "--runs", "1", "--json", "figures.json"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let table = stdout(&output);
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines.len(), 6, "{table}");
+    assert!(lines.iter().all(|line| line.len() == lines[0].len()), "the columns are aligned: {table}");
+    let figures: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.path("figures.json")).expect("there")).expect("JSON");
+    for (line, tracer) in lines[1..].iter().zip(["auto", "fixed", "sphere", "relaxed", "guaranteed"]) {
+        assert!(line.starts_with(tracer), "{line}");
+        let figures = &figures["tracers"][tracer];
+        let number = |key: &str| figures[key].as_u64().unwrap_or_else(|| panic!("{tracer} has no {key}"));
+        assert_eq!(number("false"), 0);
+        assert!(number("field_evaluations") > 0 && number("hits") > 100);
+        assert!(line.split_whitespace().any(|word| word == number("hits").to_string()), "{line}");
+    }
+    assert_eq!(figures["width"], 40);
+    // Five pictures of 40 pixels beside each other, three of 30 below.
+    let (width, height) = size(&folder.path("ball-compare.png"));
+    assert!(width > 5 * 40 && height > 3 * 30, "{width} x {height}");
+
+    let output = folder.run(&["compare", "ball.json", "--runs", "1", "-o", "parts", "--quiet", "--width", "20"]);
+    assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+    assert_eq!(std::fs::read_dir(folder.path("parts")).expect("made").count(), 1 + 3 * 5);
+    assert_eq!(size(&folder.path("parts/relaxed-steps.png")), (20, 30));
+}
+
+#[test]
+fn compare_names_the_reason_why_a_tracer_can_not_be_used() {
+    let folder = Folder::new();
+    folder.write(
+        "wave.json",
+        r#"{ "picture": { "width": 24, "height": 16 }, "objects": [ { "name": "wave", "shape": { "formula": "z - sin(x)" } } ] }"#,
+    );
+    let output = folder.run(&["compare", "wave.json", "--runs", "1", "--json", "figures.json"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let table = stdout(&output);
+    for tracer in ["sphere", "relaxed"] {
+        let line = table.lines().find(|line| line.starts_with(tracer)).expect("a line");
+        assert!(line.contains("can't find \"wave\""), "{line}");
+    }
+    let figures: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.path("figures.json")).expect("there")).expect("JSON");
+    assert!(figures["tracers"]["sphere"]["can_not_be_used"].as_str().expect("a reason").contains("wave"));
+    assert!(figures["tracers"]["guaranteed"]["hits"].as_u64().expect("a count") > 0);
+}
+
+#[test]
+fn a_sweep_over_one_number_is_a_row_and_over_two_a_grid() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL);
+    let sweep = |args: &[&str], name: &str| {
+        let output = folder.run(&[&["sweep", "ball.json", "--samples", "1", "-o", name], args].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        size(&folder.path(name))
+    };
+    // A title that is shorter than all, so that it does not count.
+    let radius = "objects[0].shape.sphere.radius=0.5,1";
+    let wide = ["--width", "400"];
+    let one = sweep(&[&["--vary", radius], &wide[..]].concat(), "one.png");
+    let three = sweep(&[&["--vary", "tracer.max_steps=5,10,100"], &wide[..]].concat(), "three.png");
+    assert_eq!(three.0 - one.0, 400 + 10, "one picture and one gap more");
+    let grid = ["--vary", radius, "--vary", "tracer.max_steps=50,60,100"];
+    let grid = sweep(&[&grid[..], &wide[..]].concat(), "grid.png");
+    let tall = sweep(&["--vary", radius, "--vary", "picture.height=30,70,20", "--width", "400"], "tall.png");
+    assert!(grid.0 > three.0, "the names of rows stand on the left");
+    assert_eq!(tall.0, grid.0, "as many pictures, and the same names of rows");
+    assert_eq!(tall.1 - grid.1, 2 * (70 - 30), "each row is as high as its highest picture");
+    let column =
+        sweep(&[&["--vary", "tracer.max_steps=50,60,100", "--columns", "1"], &wide[..]].concat(), "column.png");
+    assert_eq!(column.0, 400 + 2 * 14, "one picture and two margins");
+
+    let output = folder.run(&["sweep", "ball.json", "--vary", "picture.exposure=-1..1:3", "--quiet"]);
+    assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+    assert!(folder.path("ball-sweep.png").exists());
+}
+
+#[test]
+fn wrong_sweeps_are_explained_before_anything_is_written() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL);
+    let before = folder.names();
+    let vary = |axes: &[&str], exit: i32, says: &[&str]| {
+        let args: Vec<&str> = axes.iter().flat_map(|axis| ["--vary", axis]).collect();
+        let output = folder.run(&[&["sweep", "ball.json"], &args[..]].concat());
+        assert_eq!(code(&output), exit, "{axes:?}: {}", stderr(&output));
+        for part in says {
+            assert!(stderr(&output).contains(part), "{axes:?} does not say {part:?}: {}", stderr(&output));
+        }
+        assert_eq!(folder.names(), before, "{axes:?} leaves nothing behind");
+    };
+    vary(&["objects[0].shape.spere.radius=1,2"], 1, &["does not write `spere`; did you mean `sphere`?"]);
+    vary(&["tracer.max_step=1,2"], 1, &["has no key `max_step`", "did you mean `max_steps`?"]);
+    vary(&["objects[3].shape=1"], 1, &["there is no [3]: `objects` has one entry, [0]"]);
+    vary(&["camera.eye[2]=1"], 1, &["can't vary camera.eye[2]", "does not write `camera`"]);
+    vary(
+        &["objects[0].shape.sphere.radius=1,-2"],
+        1,
+        &["must be above 0, but is -2", "ball.json with objects[0].shape.sphere.radius=-2"],
+    );
+    vary(&["tracer.max_steps=5..6:3"], 1, &["must be a whole number, but is 5.5"]);
+    vary(&["a=1", "b=2", "c=3"], 2, &["a sheet has two axes"]);
+    vary(&["tracer.max_steps"], 2, &["write PATH=VALUES"]);
+    vary(&["tracer.max_steps=1..100:100", "picture.samples=1..9:9"], 2, &["900 pictures"]);
+    let output = folder.run(&["sweep", "ball.json", "--vary", "picture.samples=1", "-o", "x.exr"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("the suffix must be .png"), "{}", stderr(&output));
+}

@@ -38,8 +38,10 @@
 //! any crop of the frame.
 
 mod bundle;
+mod compare;
 mod encode;
 mod filter;
+mod fixed;
 mod image;
 mod layers;
 mod light;
@@ -48,6 +50,7 @@ mod material;
 mod options;
 mod packet;
 mod prepare;
+mod relaxed;
 mod run;
 mod search;
 mod shade;
@@ -55,7 +58,9 @@ mod stats;
 mod trace;
 mod vector;
 mod view;
+mod wave;
 
+pub use compare::{Comparison, Outcome, Trial, Verdict, compare};
 pub use encode::{EncodeError, encode_exr, encode_png};
 pub use image::{Image, Tone, srgb_encode8};
 pub use layers::{Layer, Layers};

@@ -35,6 +35,19 @@ pub(crate) struct Space<'f> {
     pub(crate) eye: Triple,
     pub(crate) pixel: [f32; 2],
     pub(crate) pace: Pace,
+    pub(crate) manner: Manner,
+}
+
+/// How rays travel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Manner {
+    /// From cell to cell, in each as its part allows: marching by distances, searching for the zeros of formulas.
+    Fitting,
+    /// From cell to cell, searching in all of them. A penumbra is made of clearances, which no search finds: for the least
+    /// ratio rays march all the same.
+    Searching,
+    /// Marching through one cell that holds the whole field.
+    Plain,
 }
 
 /// What rays look for.
@@ -172,21 +185,27 @@ impl<'f> Trip<'_, 'f, '_> {
         evaluations
     }
 
+    /// Whether rays march by values where that is safe.
+    fn may_march(&self) -> bool {
+        self.space.manner != Manner::Searching || self.quest == Quest::Least
+    }
+
     fn is_of_no_interest(&self, cell: &Cell) -> bool {
         self.quest != Quest::Least && matches!(cell.occupancy(), Occupancy::Outside(_))
     }
 
     fn is_small(&self, cell: &Cell) -> bool {
         let part = cell.part();
-        let (small, pixels) = match (part.is_measured(), part.is_warped()) {
+        let (small, pixels) = match (part.is_measured() && self.may_march(), part.is_warped()) {
             (true, _) => (SMALL_PART, CELL_PIXELS),
             (false, true) => (0, CELL_PIXELS),
             (false, false) => (SMALL_FORMULA, FORMULA_PIXELS),
         };
-        if cell.occupancy() != Occupancy::Surface || part.size() <= small {
+        if self.space.manner == Manner::Plain || cell.occupancy() != Occupancy::Surface || part.size() <= small {
             return true;
         }
-        if part.is_warped() && part.size() <= SMALL_WARPED && self.space.cells.slope(cell).is_tight {
+        if part.is_warped() && self.may_march() && part.size() <= SMALL_WARPED && self.space.cells.slope(cell).is_tight
+        {
             return true;
         }
         let (middle, half, eye) = (cell.middle(), cell.half(), self.space.eye);
@@ -210,7 +229,11 @@ impl<'f> Trip<'_, 'f, '_> {
     /// How rays march in a cell by the values of its part, if they can. Where space is warped, that depends on the cell.
     fn pace_of(&self, cell: &Cell) -> Option<Pace> {
         let pace = self.space.pace;
-        if cell.part().is_measured() {
+        if !self.may_march() {
+            return None;
+        }
+        // The pace of plain marches suits formulas, too, but makes no clearances of their values.
+        if cell.part().is_measured() || (self.space.manner == Manner::Plain && self.quest != Quest::Least) {
             return Some(pace);
         }
         let slope = cell.part().is_warped().then(|| self.space.cells.slope(cell).bound)?;

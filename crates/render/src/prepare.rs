@@ -9,18 +9,23 @@ use crate::march::Pace;
 use crate::options::Options;
 use crate::vector::Triple;
 use crate::view::{CameraError, View, framed};
+use crate::wave::Way;
 use freikugel_field::ray::ExactRay;
 use freikugel_field::simd::{self, Level};
 use freikugel_field::{
-    Aabb, Cells, Contract, Diagnostic, Extent, Field, Limits, MaterialId, Program, Structure, analyse, find_extent,
+    Aabb, Cells, Contract, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Program, Structure, analyse,
+    find_extent,
 };
-use freikugel_scene::{Camera, Material, Scene};
+use freikugel_scene::{Camera, Material, Method, Scene, Tracer};
 use glam::DVec3;
 use std::fmt;
 
 /// The part of half a ray's share of its pixel that a surface may be missed by. The default precision is coarser than
 /// that at all but the smallest sizes.
 const FOOTPRINT_SHARE: f64 = 1.0 / 16.0;
+
+/// The part of the scene's size that a fixed step goes if the scene does not say: no more than 443 steps lead through.
+const FIXED_STEP: f64 = 1.0 / 256.0;
 
 /// Rounding errors of a field value in single precision, relative to the coordinates: a handful of operations.
 const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
@@ -50,6 +55,15 @@ pub enum PrepareError {
     },
     /// A parameter of the tracing is out of its range.
     Tracing(&'static str),
+    /// The method can't be used on an object, since it is not known how far a step may go.
+    NoScale {
+        /// The object's place in the scene.
+        index: usize,
+        /// The object's name.
+        object: String,
+        /// The method.
+        method: Method,
+    },
 }
 
 /// A scene made ready for pictures of any size. See the [crate documentation](crate).
@@ -105,6 +119,8 @@ impl<'s> Renderer<'s> {
         let mut extent = Extent::Empty;
         let mut scale = f64::INFINITY;
         let mut contracts = Vec::new();
+        let mut unscaled = Vec::new();
+        let method = scene.tracer.method;
         for (index, object) in scene.objects.iter().enumerate() {
             let mut analysis = analyse(&object.shape).0.expect("faults were found when compiling");
             contracts.push(analysis.contract);
@@ -119,6 +135,8 @@ impl<'s> Renderer<'s> {
             if matches!(analysis.extent, Extent::Finite(_)) {
                 extent = hull(extent, analysis.extent);
             }
+            // All other methods are there to be compared: each has to find all surfaces.
+            let exact_ray = exact_ray.filter(|_| method == Method::Auto);
             if let Some(ray) = exact_ray {
                 let structure = Structure::compile(&fields[index..=index]).map_err(PrepareError::Fields)?;
                 let own = structure.regions().first().and_then(|region| region.material);
@@ -129,12 +147,25 @@ impl<'s> Renderer<'s> {
                 };
                 exact.push(Exact { ray, paint, structure });
             } else if analysis.extent != Extent::Empty {
-                // What has no scale is searched by intervals instead; distances that it is cut with have slope 1.
-                let is_safe = analysis.contract.is_safe_step();
-                scale = scale.min(if is_safe { safe_scale(&analysis.contract) } else { 1.0 });
+                // What is no safe step is searched by intervals, or needs no scale, or gets one from its slope; distances that it
+                // is cut with have slope 1.
+                scale = scale.min(if analysis.contract.is_safe_step() { safe_scale(&analysis.contract) } else { 1.0 });
+                if !analysis.contract.is_safe_step() && matches!(method, Method::Sphere | Method::Relaxed) {
+                    unscaled.push(index);
+                }
                 bounds = hull(bounds, analysis.extent);
                 marched.push(index);
             }
+        }
+
+        for index in unscaled {
+            let everywhere = contracts[index].lipschitz.filter(|_| contracts[index].within.is_none());
+            let slope = match bounds {
+                Extent::Finite(bounds) => slope_over(&fields[index..=index], widened(bounds))?.or(everywhere),
+                Extent::Empty | Extent::Unbounded => everywhere,
+            };
+            let no_scale = || PrepareError::NoScale { index, object: scene.objects[index].name.clone(), method };
+            scale = scale.min(slope.ok_or_else(no_scale)?.recip());
         }
 
         let structure = (!marched.is_empty())
@@ -191,6 +222,20 @@ fn safe_scale(contract: &Contract) -> f64 {
     contract.lipschitz.filter(|&slope| slope > 0.0).map_or(1.0, |slope| (1.0 / slope).max(1.0))
 }
 
+/// A bound of a field's slope within a box, if there is one.
+fn slope_over(field: &[Field], region: Aabb) -> Result<Option<f64>, PrepareError> {
+    let program = Structure::compile(field).map_err(PrepareError::Fields)?.program(DVec3::ZERO);
+    let side = |axis: usize| Interval::new(region.min[axis], region.max[axis]);
+    Ok(program.lipschitz_over([side(0), side(1), side(2)]))
+}
+
+/// A box that holds what lies on the border of another one.
+fn widened(bounds: Aabb) -> Aabb {
+    let far = bounds.min.abs().max(bounds.max.abs()).max_element();
+    let margin = BOX_MARGIN * bounds.size().max_element() + ROUNDING * far;
+    Aabb { min: bounds.min - margin, max: bounds.max + margin }
+}
+
 fn material(scene: &Scene, id: Option<MaterialId>) -> &Material {
     static PLAIN: std::sync::LazyLock<Material> = std::sync::LazyLock::new(Material::default);
     id.and_then(|MaterialId(index)| scene.materials.get(index as usize)).map_or(&*PLAIN, |(_, material)| material)
@@ -208,8 +253,14 @@ fn check_tracing(scene: &Scene) -> Result<(), PrepareError> {
     let tracing = &scene.tracer;
     let fault = if !(tracing.max_distance > 0.0 && tracing.max_distance.is_finite()) {
         "the maximum distance must be above 0"
-    } else if !(0.0..1.0).contains(&tracing.precision) {
-        "the precision must be at least 0 and below 1"
+    } else if !(0.0..=1.0).contains(&tracing.precision) {
+        "the precision must be at least 0 and at most 1"
+    } else if !(0.0..=2.0).contains(&tracing.precision_exponent) {
+        "the exponent of the precision must be at least 0 and at most 2"
+    } else if !(1.0..2.0).contains(&tracing.relaxation) {
+        "the relaxation must be at least 1 and below 2"
+    } else if tracing.step.is_some_and(|step| !(step > 0.0 && step.is_finite())) {
+        "the fixed step must be above 0"
     } else if tracing.max_steps == 0 {
         "there must be at least one step"
     } else if !(tracing.step_factor > 0.0 && tracing.step_factor <= 1.0) {
@@ -232,6 +283,7 @@ pub(crate) struct Frame<'r> {
     /// One for each of the renderer's exact objects.
     pub(crate) exact: Vec<Program>,
     pub(crate) lamps: Vec<Lamp>,
+    pub(crate) way: Way,
     pub(crate) pace: Pace,
     pub(crate) tolerance: Tolerance,
     /// Where to look for marched objects; everywhere if they have no bounds.
@@ -252,6 +304,9 @@ pub(crate) struct Tolerance {
     fixed: f64,
     /// Per unit of distance from the camera.
     growth: f64,
+    /// The precision, which `growth` has in it already if the exponent is 1.
+    precision: f64,
+    exponent: f64,
 }
 
 /// Ambient occlusion, ready to use.
@@ -295,16 +350,17 @@ impl<'r> Frame<'r> {
         let (fixed, growth) = view.footprint();
         let spread = f64::from(options.samples).sqrt();
         let (fixed, growth) = (fixed / spread, growth / spread);
-        let tolerance = Tolerance {
-            fixed: fixed / 2.0 * FOOTPRINT_SHARE,
-            growth: (growth / 2.0 * FOOTPRINT_SHARE).max(scene.tracer.precision),
+        let tracer = &scene.tracer;
+        let share = if tracer.method == Method::Relaxed { 1.0 } else { FOOTPRINT_SHARE };
+        let tolerance = Tolerance::new([fixed, growth].map(|width| width / 2.0 * share), tracer);
+        let step = tracer.step.unwrap_or(size * FIXED_STEP) as f32;
+        let way = match tracer.method {
+            Method::Auto | Method::Guaranteed | Method::Sphere => Way::Packets,
+            Method::Fixed => Way::Fixed { step, has_sheets: renderer.paints.iter().any(|paint| paint.is_sheet) },
+            Method::Relaxed => Way::Relaxed { relaxation: tracer.relaxation as f32 },
         };
         let bounds = match renderer.bounds {
-            Extent::Finite(bounds) => {
-                let far = bounds.min.abs().max(bounds.max.abs()).max_element();
-                let margin = BOX_MARGIN * bounds.size().max_element() + ROUNDING * far;
-                Some(Aabb { min: bounds.min - margin, max: bounds.max + margin })
-            }
+            Extent::Finite(bounds) => Some(widened(bounds)),
             Extent::Empty | Extent::Unbounded => None,
         };
         let region = bounds.unwrap_or_else(|| {
@@ -319,6 +375,7 @@ impl<'r> Frame<'r> {
             origin,
             exact: renderer.exact.iter().map(|exact| program(&exact.structure)).collect(),
             lamps,
+            way,
             pace: Pace {
                 scale: renderer.scale.min(f64::from(f32::MAX)) as f32,
                 step_factor: scene.tracer.step_factor as f32,
@@ -340,10 +397,35 @@ impl<'r> Frame<'r> {
 }
 
 impl Tolerance {
-    /// How far from the surface a camera ray may stop that has come from the camera to a point `t` units away and
-    /// `offset` from the origin: at the point, and what that gains per unit of distance further on.
-    pub(crate) fn at(&self, t: f64, offset: f64) -> [f64; 2] {
-        [self.fixed + self.growth * t + ROUNDING * offset, self.growth + ROUNDING]
+    /// For a part of a ray's footprint, at the camera and per unit of distance.
+    fn new([fixed, growth]: [f64; 2], tracer: &Tracer) -> Self {
+        let Tracer { precision, precision_exponent: exponent, .. } = *tracer;
+        // The power of 1 is a growth, of which the larger one holds.
+        let growth = if exponent == 1.0 { growth.max(precision) } else { growth };
+        Self { fixed, growth, precision, exponent }
+    }
+
+    /// How far from the surface a camera ray may have stopped that has come from the camera to a point `t` units away
+    /// and `offset` from the origin.
+    pub(crate) fn at(&self, t: f64, offset: f64) -> f64 {
+        self.fixed + self.growth * t + ROUNDING * offset + self.power(t)
+    }
+
+    /// The tolerance on a ray's way from `t` to `end`, at `t` and per unit of distance further on. Where the tolerance
+    /// bends, this is a straight line below it: a chord, or the tangent at `t`.
+    pub(crate) fn along(&self, t: f64, end: f64, offset: f64) -> [f64; 2] {
+        let slope = match self.exponent {
+            1.0 => 0.0,
+            exponent if exponent > 1.0 => self.precision * exponent * libm::pow(t, exponent - 1.0),
+            _ if end > t => (self.power(end) - self.power(t)) / (end - t),
+            _ => 0.0,
+        };
+        [self.at(t, offset), self.growth + ROUNDING + slope]
+    }
+
+    /// The precision at a distance, unless it is a growth.
+    fn power(&self, t: f64) -> f64 {
+        if self.exponent == 1.0 { 0.0 } else { self.precision * libm::pow(t, self.exponent) }
     }
 }
 
@@ -381,6 +463,12 @@ impl fmt::Display for PrepareError {
             Self::Camera(fault) => fault.fmt(f),
             Self::Light { index, fault } => write!(f, "light {index}: {fault}"),
             Self::Tracing(fault) => f.write_str(fault),
+            Self::NoScale { object, method, .. } => write!(
+                f,
+                "the tracer `{}` can't find {object:?}: how far a step may go is not known where its slope has no bound \
+                 (`auto`, `guaranteed` and `fixed` need not know; where all objects are finite, a bound may be found)",
+                method.name()
+            ),
         }
     }
 }

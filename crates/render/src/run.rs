@@ -86,6 +86,7 @@ impl Renderer<'_> {
         let region = options.region()?;
         let frame = Frame::new(self, options)?;
         let offsets = filter::offsets(options.samples);
+        let warning = self.scene.tracer.warning;
         let mut pixels = filled(region, [0.0; 3])?;
         let mut stats = in_tiles(&frame, options, region, progress, &mut pixels, || {
             let mut shading = Shading::default();
@@ -116,8 +117,8 @@ impl Renderer<'_> {
                         unresolved[(wave.start + ray as usize) / offsets.len()] = true;
                     }
                 }
-                for pixel in out.iter_mut() {
-                    *pixel = scaled(*pixel, weight);
+                for (pixel, &is_unresolved) in out.iter_mut().zip(&unresolved) {
+                    *pixel = warning.filter(|_| is_unresolved).unwrap_or_else(|| scaled(*pixel, weight));
                 }
                 let count = unresolved.iter().filter(|&&pixel| pixel).count();
                 tracer.stats.unresolved.pixels += count as u64;

@@ -143,7 +143,7 @@ impl Tracer<'_> {
                 continue;
             }
             let exactness = rounding(length(origin));
-            self.packet.push(&Start {
+            self.wave.push(&Start {
                 id: id as u32,
                 origin,
                 direction,
@@ -160,8 +160,7 @@ impl Tracer<'_> {
             Dimming::Sharpness(_) | Dimming::Clearance(_) => Quest::Least,
         };
         self.ends.clear();
-        self.stats.evaluations +=
-            self.packet.travel(&space, quest, field, encloser, &mut self.splitter, &mut self.ends);
+        self.stats.evaluations += self.wave.travel(&space, quest, field, encloser, &mut self.splitter, &mut self.ends);
         for end in &self.ends {
             lit[end.id as usize].factor = end.factor;
             self.stats.steps += u64::from(end.steps);

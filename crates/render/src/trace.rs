@@ -5,12 +5,14 @@
 
 use crate::march::{End, Fate, Start};
 use crate::material::{Footprint, Surface};
-use crate::packet::{Packet, Quest, Space};
+use crate::packet::{Manner, Quest, Space};
 use crate::prepare::{Frame, rounding};
 use crate::stats::Stats;
 use crate::vector::{Triple, add_scaled, dot, length, scaled};
 use crate::view::{Ray, clip};
+use crate::wave::Wave;
 use freikugel_field::{Cell, Encloser, Evaluator, Part, Points, Program, Shares, Splitter};
+use freikugel_scene::Method;
 use glam::DVec3;
 use std::ops::Range;
 
@@ -76,7 +78,7 @@ pub(crate) struct Tracer<'f> {
     pub(crate) encloser: Option<Encloser<'f>>,
     pub(crate) everything: Option<Evaluator<'f>>,
     exact: Vec<Evaluator<'f>>,
-    pub(crate) packet: Packet<'f>,
+    pub(crate) wave: Wave<'f>,
     pub(crate) splitter: Splitter,
     pub(crate) ends: Vec<End>,
     pub(crate) cloud: Cloud,
@@ -107,7 +109,7 @@ impl<'f> Tracer<'f> {
             encloser: frame.marched.as_ref().map(|program| Encloser::new(program, frame.level)),
             everything: frame.everything.as_ref().map(evaluator),
             exact: frame.exact.iter().map(evaluator).collect(),
-            packet: Packet::default(),
+            wave: Wave::new(frame.way),
             splitter: Splitter::new(frame.level),
             ends: Vec::new(),
             cloud: Cloud::default(),
@@ -163,7 +165,7 @@ impl<'f> Tracer<'f> {
             _ => (0.0, 0.0),
         };
         let origin = (ray.origin + ray.direction * begin - frame.origin).as_vec3();
-        let [base, slope] = frame.tolerance.at(begin, f64::from(origin.length()));
+        let [base, slope] = frame.tolerance.along(begin, begin + end, f64::from(origin.length()));
         let in_values = 1.0 / f64::from(frame.pace.scale);
         let start = Start {
             id,
@@ -175,7 +177,7 @@ impl<'f> Tracer<'f> {
             sharpness: 1.0,
         };
         if start.span[1] > 0.0 {
-            self.packet.push(&start);
+            self.wave.push(&start);
         }
         self.rays.push(CameraRay { ray, exact, begin, start, steps: 0 });
         self.stats.rays.camera += 1;
@@ -201,7 +203,7 @@ impl<'f> Tracer<'f> {
         loop {
             self.ends.clear();
             self.stats.evaluations +=
-                self.packet.travel(&space, Quest::First, field, encloser, &mut self.splitter, &mut self.ends);
+                self.wave.travel(&space, Quest::First, field, encloser, &mut self.splitter, &mut self.ends);
             self.cloud.clear();
             self.ends.retain(|end| {
                 let ray = &mut self.rays[end.id as usize];
@@ -222,7 +224,7 @@ impl<'f> Tracer<'f> {
             });
             let mut first = 0;
             for ends in self.ends.chunk_by(|a, b| a.place == b.place) {
-                let part = self.packet.places[ends[0].place as usize].part();
+                let part = self.wave.cell(&space, ends[0].place).part();
                 self.stats.evaluations += self.cloud.gradients(field, part, first..first + ends.len());
                 first += ends.len();
             }
@@ -237,19 +239,19 @@ impl<'f> Tracer<'f> {
                 let finer =
                     [(base * in_values).max(rounding(length(start.origin))), (growth * in_values).max(rounding(1.0))];
                 let is_false = end.value > FALSE_HIT * limit * in_values && end.value > finer[0] + finer[1] * end.t;
-                if end.fate == Fate::Hit && is_false {
+                if end.fate == Fate::Hit && is_false && self.wave.heeds_tolerance() {
                     start.tolerance = finer;
-                    self.packet.push(&Start { span: [end.t, start.span[1]], steps: end.steps, ..*start });
+                    self.wave.push(&Start { span: [end.t, start.span[1]], steps: end.steps, ..*start });
                 } else {
                     if end.t == 0.0 && end.value < -limit {
                         self.stats.inside += 1;
                     }
                     let position = self.cloud.point_at(index);
-                    let cell = self.packet.places[end.place as usize];
+                    let cell = self.wave.cell(&space, end.place);
                     self.landings.push(Landing { ray: end.id, cell, t: end.t, position, gradient });
                 }
             }
-            if self.packet.is_empty() {
+            if self.wave.is_empty() {
                 break;
             }
         }
@@ -296,7 +298,7 @@ impl<'f> Tracer<'f> {
                 }
                 let distance = begin + f64::from(landing.t);
                 let offset = length(landing.position);
-                let uncertainty = frame.tolerance.at(distance, f64::from(offset))[0] as f32;
+                let uncertainty = frame.tolerance.at(distance, f64::from(offset)) as f32;
                 let footprint = Footprint { width: frame.width_at(distance), normal, viewer, uncertainty };
                 let point = frame.origin + DVec3::from(landing.position.map(f64::from));
                 let mut surface = Surface::of(paints[main].material, point, &footprint);
@@ -354,7 +356,7 @@ impl<'f> Tracer<'f> {
                     distance,
                     // Of the two, the distance is the one that never vanishes.
                     uncertainty: rounding(offset.max(distance as f32)),
-                    tolerance: frame.tolerance.at(distance, offset.into())[0] as f32,
+                    tolerance: frame.tolerance.at(distance, offset.into()) as f32,
                     gradient: 1.0 / frame.pace.scale,
                     surface: Surface::default(),
                 });
@@ -391,7 +393,12 @@ impl Frame<'_> {
     /// What marching rays travel through.
     pub(crate) fn space(&self) -> Option<Space<'_>> {
         let cells = self.cells.as_ref()?;
-        Some(Space { cells, eye: self.eye, pixel: self.footprint, pace: self.pace })
+        let manner = match self.renderer.scene.tracer.method {
+            Method::Auto => Manner::Fitting,
+            Method::Guaranteed => Manner::Searching,
+            Method::Fixed | Method::Sphere | Method::Relaxed => Manner::Plain,
+        };
+        Some(Space { cells, eye: self.eye, pixel: self.footprint, pace: self.pace, manner })
     }
 
     /// The width of the cone around a ray at a distance from the camera.

@@ -6,7 +6,9 @@ use common::*;
 use freikugel_field::shapes::*;
 use freikugel_field::simd;
 use freikugel_render::{Options, Progress, Rect, RenderError, Renderer, render};
-use freikugel_scene::{Ambient, Background, Light, Material, Occlusion, Pattern, Point, Scene, Shadow, Spot, Sun};
+use freikugel_scene::{
+    Ambient, Background, Light, Material, Method, Occlusion, Pattern, Point, Scene, Shadow, Spot, Sun, Tracer,
+};
 use glam::DVec3;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -59,6 +61,20 @@ fn threads_tiles_and_instruction_sets_change_nothing() {
     }
     for level in simd::available() {
         assert!(bits(&scene, &Options { level: Some(level), ..base.clone() }) == expected, "{level:?}");
+    }
+}
+
+#[test]
+fn every_tracer_computes_the_same_bytes() {
+    for method in Method::ALL {
+        let mut scene = rich();
+        scene.tracer = Tracer { step: Some(0.05), ..scene.tracer.method(method) };
+        let base = Options { samples: 2, threads: Some(1), ..options(40, 30) };
+        let expected = bits(&scene, &base);
+        assert!(bits(&scene, &Options { threads: Some(3), tile: 7, ..base.clone() }) == expected, "{method:?}");
+        for level in simd::available() {
+            assert!(bits(&scene, &Options { level: Some(level), ..base.clone() }) == expected, "{method:?} {level:?}");
+        }
     }
 }
 

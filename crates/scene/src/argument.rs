@@ -1,6 +1,6 @@
 //! What the chaining methods take: anything that plainly stands for a value.
 
-use crate::{Falloff, Model, Overbright, Rgb, Shadow};
+use crate::{Falloff, Method, Model, Overbright, Rgb, Shadow};
 use freikugel_field::Triple;
 use glam::DVec3;
 
@@ -38,7 +38,7 @@ macro_rules! themselves {
     )+};
 }
 
-themselves!(Rgb, Shadow, Falloff, Model, Overbright);
+themselves!(Rgb, Shadow, Falloff, Method, Model, Overbright);
 
 impl<V: Into<Triple>> Argument<DVec3> for V {
     fn value(self) -> DVec3 {

@@ -55,6 +55,31 @@ impl<T, N: Notation<T>> Notation<Option<T>> for Maybe<N> {
     }
 }
 
+/// A value that may be missing, which can also be said by `null`.
+#[derive(Debug)]
+pub(crate) struct OrNull<N>(pub(crate) N);
+
+impl<T, N: Notation<T>> Notation<Option<T>> for OrNull<N> {
+    fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Option<T>> {
+        match value {
+            Written::NullKeyword(_) => Some(None),
+            value => self.0.read(reader, value).map(Some),
+        }
+    }
+
+    fn fault(&self, value: &Option<T>) -> Option<String> {
+        self.0.fault(value.as_ref()?)
+    }
+
+    fn write(&self, value: &Option<T>) -> Option<Json> {
+        self.0.write(value.as_ref()?)
+    }
+
+    fn schema(&self, definitions: &mut Definitions) -> Json {
+        json!({ "anyOf": [self.0.schema(definitions), { "const": null }] })
+    }
+}
+
 /// A list of values.
 #[derive(Debug)]
 pub(crate) struct List<N>(pub(crate) N);

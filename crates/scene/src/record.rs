@@ -261,6 +261,11 @@ mod tests {
         survives(&Occlusion::default());
         survives(&Occlusion { strength: 0.3, reach: Some(0.1) });
         survives(&Tracer::default().precision(1e-6).max_steps(1));
+        survives(&Tracer {
+            step: Some(0.125),
+            warning: Some([1.0, 0.0, 0.5]),
+            ..Tracer::default().method(Method::Fixed)
+        });
         survives(&Picture::default().exposure(-1.5).width(65_536));
         survives(&Picture { overbright: Overbright::ScaleDown, ..Picture::default() });
     }

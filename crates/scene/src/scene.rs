@@ -30,7 +30,7 @@ record! {
         pub materials: Vec<(String, Material)> = Vec::new(), optional MaterialsNotation;
         /// The objects: shapes with their names and materials.
         pub objects: Vec<Object> = Vec::new(), required ObjectsNotation;
-        /// The limits of tracing a ray.
+        /// How rays find surfaces, and the limits of that.
         pub tracer: Tracer = Tracer::default(), optional RecordNotation;
         /// The size of the picture and how light becomes colour in it.
         pub picture: Picture = Picture::default(), optional RecordNotation;

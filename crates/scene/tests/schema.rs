@@ -24,7 +24,8 @@ const SCENES: [&str; 5] = [
         { "difference": [ { "cylinder": { "radius": 1, "height": 2, "round": 0.05 } },
                           { "translate": { "by": [0, 0, 0.2], "shape": { "cylinder": { "radius": 0.85, "height": 2 } } } } ] } },
         { "name": "floor", "shape": { "paint": { "material": "tiles", "shape": { "plane": { "normal": "z" } } } } } ],
-      "tracer": { "max_distance": 100, "precision": 1e-5, "max_steps": 512, "step_factor": 0.9 },
+      "tracer": { "max_distance": 100, "precision": 1e-5, "max_steps": 512, "step_factor": 0.9,
+                  "method": "fixed", "step": 0.1, "relaxation": 1.5, "precision_exponent": 0, "warning": null },
       "picture": { "width": 320, "height": 180, "samples": 4, "exposure": -0.5, "overbright": "scale_down" } }"##,
     r##"{ "camera": { "eye": [0, 0, 9], "height": 4 }, "lights": [], "ambient": "#333", "occlusion": false, "background": "#000",
       "objects": [ { "shape": { "smooth_union": { "k": 0.4, "shapes":

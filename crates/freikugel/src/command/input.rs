@@ -1,7 +1,7 @@
 //! Reading scene files, whatever they turn out to be.
 
 use super::Failure;
-use freikugel::scene::{Reading, Scene, Severity, read, report};
+use freikugel::scene::{Diagnostic, Reading, Scene, Severity, read, report};
 use std::io::{IsTerminal, Read};
 use std::path::Path;
 
@@ -28,15 +28,33 @@ fn text_of(path: &Path) -> Result<String, String> {
 
 /// Reads a scene, printing all diagnostics to standard error.
 pub(super) fn scene(path: &Path) -> Result<Scene, Failure> {
-    let name = if path == Path::new("-") { "standard input".into() } else { path.display().to_string() };
-    let text = text_of(path).map_err(|fault| Failure::Input(format!("can't read {name}: {fault}")))?;
-    let Reading { scene, diagnostics } = read(&text);
-    if !diagnostics.is_empty() {
-        let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-        eprint!("{}", report(&text, &name, &diagnostics, color));
-    }
+    parsed(&text(path)?, &name(path))
+}
+
+/// Reads a scene file's text.
+pub(super) fn text(path: &Path) -> Result<String, Failure> {
+    text_of(path).map_err(|fault| Failure::Input(format!("can't read {}: {fault}", name(path))))
+}
+
+/// What messages call a file.
+pub(super) fn name(path: &Path) -> String {
+    if path == Path::new("-") { "standard input".into() } else { path.display().to_string() }
+}
+
+/// The scene of a text, printing all diagnostics to standard error.
+pub(super) fn parsed(text: &str, name: &str) -> Result<Scene, Failure> {
+    let Reading { scene, diagnostics } = read(text);
+    show(text, name, &diagnostics);
     scene.ok_or_else(|| {
         let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
         Failure::Input(format!("{name} has {errors} error{}", if errors == 1 { "" } else { "s" }))
     })
+}
+
+/// Prints diagnostics to standard error.
+pub(super) fn show(text: &str, name: &str, diagnostics: &[Diagnostic]) {
+    if !diagnostics.is_empty() {
+        let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+        eprint!("{}", report(text, name, diagnostics, color));
+    }
 }

@@ -1,12 +1,12 @@
 //! `freikugel render`: a picture of a scene.
 
+use super::frame::{Frame, Samples, Watch, cannot_render, cannot_write, open, output_path, parse_method};
 use super::interrupt::Interrupt;
 use super::{Failure, input};
-use clap::ValueEnum;
-use freikugel::files::{Format, Output};
-use freikugel::render::{Options, Progress, Rect, RenderError, Rendered, Stats, render};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
+use freikugel::files::Format;
+use freikugel::render::{Options, Rect, Rendered, Stats, render};
+use freikugel::scene::color::from_hex;
+use freikugel::scene::{Method, Rgb};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -14,6 +14,7 @@ Examples:
   freikugel render cup.json                       writes cup.png
   freikugel render cup.json -o cup.exr            linear colours, unclamped
   freikugel render cup.json --quality draft       one ray a pixel
+  freikugel render cup.json --tracer sphere       plain sphere tracing, for comparison
   freikugel render cup.json --crop 100,50,64,64   a part of the frame, the same bytes as in the whole
   freikugel render cup.json --stats cup-stats.json";
 
@@ -26,54 +27,28 @@ pub(super) struct Arguments {
     /// The picture, .png or .exr; by default the scene's name with .png, in the current folder.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Width of the picture in pixels, instead of the scene's.
-    #[arg(long, value_name = "PIXELS")]
-    width: Option<u32>,
-    /// Height of the picture in pixels, instead of the scene's.
-    #[arg(long, value_name = "PIXELS")]
-    height: Option<u32>,
-    /// Rays a pixel, instead of the scene's. One goes through the pixel's centre.
-    #[arg(long, value_name = "COUNT", conflicts_with = "quality")]
-    samples: Option<u32>,
-    /// Rays a pixel by name.
-    #[arg(long, value_name = "NAME")]
-    quality: Option<Quality>,
+    #[command(flatten)]
+    frame: Frame,
+    #[command(flatten)]
+    samples: Samples,
     /// The part of the frame to render.
     #[arg(long, value_name = "X,Y,WIDTH,HEIGHT", value_parser = parse_crop)]
     crop: Option<Rect>,
-    /// Threads to render with; by default one for each core. The picture is the same with any number.
-    #[arg(long, value_name = "COUNT")]
-    threads: Option<usize>,
     /// The instruction set to evaluate fields with; by default the best one. The picture is the same with all.
     #[arg(long, value_name = "NAME")]
     simd: Option<String>,
+    /// How rays find surfaces, instead of the scene's way.
+    #[arg(long, value_name = "NAME", value_parser = parse_method)]
+    tracer: Option<Method>,
+    /// Draw pixels with a ray that ran out of steps in this colour: #rrggbb or #rgb.
+    #[arg(long, value_name = "COLOR", value_parser = parse_color)]
+    warning_color: Option<Rgb>,
     /// Write counts and times to this file, as JSON.
     #[arg(long, value_name = "FILE")]
     stats: Option<PathBuf>,
     /// Show no progress and no summary.
     #[arg(short, long)]
     quiet: bool,
-}
-
-/// How many rays a pixel gets.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Quality {
-    /// 1 ray a pixel.
-    Draft,
-    /// 16 rays a pixel.
-    Normal,
-    /// 64 rays a pixel.
-    Fine,
-}
-
-impl Quality {
-    fn samples(self) -> u32 {
-        match self {
-            Self::Draft => 1,
-            Self::Normal => 16,
-            Self::Fine => 64,
-        }
-    }
 }
 
 fn parse_crop(text: &str) -> Result<Rect, String> {
@@ -84,64 +59,46 @@ fn parse_crop(text: &str) -> Result<Rect, String> {
     }
 }
 
+fn parse_color(text: &str) -> Result<Rgb, String> {
+    from_hex(text).ok_or_else(|| "give #rrggbb or #rgb".into())
+}
+
 /// Renders the picture and writes its files.
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let path = output_path(arguments)?;
+    let path = output_path(arguments.output.as_deref(), &arguments.scene, ".png")?;
     let format = Format::of(&path)
         .ok_or_else(|| Failure::Usage(format!("{}: the suffix must be .png or .exr", path.display())))?;
     let level = arguments.simd.as_deref().map(instruction_set).transpose()?;
 
-    let scene = input::scene(&arguments.scene)?;
-    let mut options = Options { crop: arguments.crop, threads: arguments.threads, level, ..Options::of(&scene) };
-    options.width = arguments.width.unwrap_or(options.width);
-    options.height = arguments.height.unwrap_or(options.height);
-    options.samples = arguments.samples.or(arguments.quality.map(Quality::samples)).unwrap_or(options.samples);
+    let mut scene = input::scene(&arguments.scene)?;
+    scene.tracer.method = arguments.tracer.unwrap_or(scene.tracer.method);
+    scene.tracer.warning = arguments.warning_color.or(scene.tracer.warning);
+    let options = Options { crop: arguments.crop, level, ..Options::of(&scene) };
+    let options = arguments.samples.over(arguments.frame.over(options));
     options.region().map_err(|error| Failure::Usage(error.to_string()))?;
 
     let interrupt = Interrupt::listen();
-    let open = |path: &Path| -> Result<Output, Failure> {
-        let output = Output::open(path).map_err(|error| cannot_write(path, &error))?;
-        interrupt.guard(output.unfinished());
-        Ok(output)
-    };
-    let picture_file = open(&path)?;
-    let stats_file = arguments.stats.as_deref().map(open).transpose()?;
+    let picture_file = open(&path, &interrupt)?;
+    let stats_file = arguments.stats.as_deref().map(|path| open(path, &interrupt)).transpose()?;
 
-    let watch = Watch { bar: progress_bar(arguments.quiet), interrupt: interrupt.clone() };
+    let watch = Watch::new(arguments.quiet, &interrupt);
     let rendered = render(&scene, &options, &watch);
     watch.bar.finish_and_clear();
-    let rendered = rendered.map_err(|error| match error {
-        RenderError::Cancelled => Failure::Interrupted,
-        RenderError::Options(error) => Failure::Usage(error.to_string()),
-        error => Failure::Input(error.to_string()),
-    })?;
+    let rendered = rendered.map_err(cannot_render)?;
 
     let bytes = format.encode(&rendered, &scene.picture).map_err(|error| Failure::Input(error.to_string()))?;
     if interrupt.is_requested() {
         return Err(Failure::Interrupted);
     }
     if let (Some(file), Some(path)) = (stats_file, &arguments.stats) {
-        file.write(statistics(&rendered).as_bytes()).map_err(|error| cannot_write(path, &error))?;
+        file.write(statistics(&rendered, scene.tracer.method).as_bytes())
+            .map_err(|error| cannot_write(path, &error))?;
     }
     picture_file.write(&bytes).map_err(|error| cannot_write(&path, &error))?;
     if !arguments.quiet {
         summarise(&path, &rendered);
     }
     Ok(())
-}
-
-fn cannot_write(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::Input(format!("can't write {}: {error}", path.display()))
-}
-
-fn output_path(arguments: &Arguments) -> Result<PathBuf, Failure> {
-    if let Some(path) = &arguments.output {
-        return Ok(path.clone());
-    }
-    match arguments.scene.file_stem() {
-        Some(stem) if arguments.scene != Path::new("-") => Ok(Path::new(stem).with_extension("png")),
-        _ => Err(Failure::Usage("say where the picture goes: -o FILE".into())),
-    }
 }
 
 /// The instruction set of a name.
@@ -152,34 +109,6 @@ fn instruction_set(name: &str) -> Result<freikugel::field::simd::Level, Failure>
         let names: Vec<&str> = levels.into_iter().map(simd::name).collect();
         Failure::Usage(format!("this machine has no instruction set {name:?}; it has {}", names.join(", ")))
     })
-}
-
-/// Shows how far a rendering has come, and stops it on Ctrl-C.
-struct Watch {
-    bar: ProgressBar,
-    interrupt: Interrupt,
-}
-
-impl Progress for Watch {
-    fn advanced(&self, done: u64, total: u64) {
-        self.bar.set_length(total);
-        self.bar.set_position(done);
-    }
-
-    fn is_cancelled(&self) -> bool {
-        self.interrupt.is_requested()
-    }
-}
-
-fn progress_bar(quiet: bool) -> ProgressBar {
-    let target = if quiet || !std::io::stderr().is_terminal() {
-        ProgressDrawTarget::hidden()
-    } else {
-        ProgressDrawTarget::stderr()
-    };
-    let style =
-        ProgressStyle::with_template("{wide_bar} {percent:>3} %, {eta} left").expect("the template is well-formed");
-    ProgressBar::with_draw_target(Some(1), target).with_style(style)
 }
 
 /// One line on what came out, and one on what did not.
@@ -198,9 +127,10 @@ fn summarise(path: &Path, rendered: &Rendered) {
 }
 
 /// Counts and times as JSON.
-fn statistics(rendered: &Rendered) -> String {
+fn statistics(rendered: &Rendered, method: Method) -> String {
     let Stats { rays, hits, inside, evaluations, steps, unresolved, times } = &rendered.stats;
     let value = serde_json::json!({
+        "tracer": method.name(),
         "width": rendered.image.width(),
         "height": rendered.image.height(),
         "rays": { "camera": rays.camera, "shadow": rays.shadow, "occlusion": rays.occlusion },

@@ -73,6 +73,20 @@ macro_rules! choice {
             $( $(#[doc = $doc])+ $Value, )+
         }
 
+        impl $Choice {
+            /// Its name in files.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $( Self::$Value => $name, )+
+                }
+            }
+
+            /// The value of a name.
+            pub fn from_name(name: &str) -> Option<Self> {
+                <Self as $crate::notation::Choice>::ALL.iter().find(|entry| entry.1 == name).map(|entry| entry.0)
+            }
+        }
+
         impl Default for $Choice {
             fn default() -> Self {
                 Self::$Default
