@@ -50,7 +50,7 @@ pub mod structure;
 pub mod vector;
 
 pub use analysis::{Analysis, MAX_DEPTH, analyse, extent};
-pub use cells::{Cell, Cells, Occupancy, Splitter};
+pub use cells::{Cell, Cells, Occupancy, Splitter, Surveyed};
 pub use contract::{Aabb, Contract, Extent, Metric};
 pub use diagnostic::{Diagnostic, Severity};
 pub use enclose::{Bounds, Encloser, Stretches};

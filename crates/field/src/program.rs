@@ -79,7 +79,7 @@ impl Program {
     }
 
     /// All of its steps.
-    pub fn whole(&self) -> &Part {
+    pub fn whole(&self) -> &Arc<Part> {
         &self.whole
     }
 

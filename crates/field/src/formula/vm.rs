@@ -144,7 +144,11 @@ impl Formula {
         last.map(|result| Self::build(&builder, result)).ok_or_else(|| {
             let lines = text.lines().count().max(1);
             let hint = Some("for instance `_0 var-x`".into());
-            VmError::new(text, lines, Fault { word: &text[text.len()..], message: "there is no operation".into(), hint })
+            VmError::new(
+                text,
+                lines,
+                Fault { word: &text[text.len()..], message: "there is no operation".into(), hint },
+            )
         })
     }
 

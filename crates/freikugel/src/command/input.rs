@@ -1,7 +1,8 @@
-//! Reading scene files, whatever they turn out to be.
+//! Reading scene files and models, whatever they turn out to be.
 
 use super::Failure;
-use freikugel::scene::{Reading, Scene, Severity, read, report};
+use freikugel::model::{self, Model, Region};
+use freikugel::scene::{self, Reading, Scene, Severity, report};
 use std::io::{IsTerminal, Read};
 use std::path::Path;
 
@@ -26,16 +27,38 @@ fn text_of(path: &Path) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|_| "it is not text in UTF-8, hence no scene file".into())
 }
 
-/// Reads a scene, printing all diagnostics to standard error.
-pub(super) fn scene(path: &Path) -> Result<Scene, Failure> {
-    let name = if path == Path::new("-") { "standard input".into() } else { path.display().to_string() };
+/// What a file holds.
+pub(super) enum Input {
+    /// A scene, or a solid made one.
+    Scene(Box<Scene>),
+    /// A region of the plane.
+    Region(Region),
+}
+
+/// The name that a path has in messages.
+fn name_of(path: &Path) -> String {
+    if path == Path::new("-") { "standard input".into() } else { path.display().to_string() }
+}
+
+/// Reads a scene or, if the file is called `.vm`, a model, printing all diagnostics to standard error.
+pub(super) fn read(path: &Path) -> Result<Input, Failure> {
+    let name = name_of(path);
     let text = text_of(path).map_err(|fault| Failure::Input(format!("can't read {name}: {fault}")))?;
-    let Reading { scene, diagnostics } = read(&text);
+    let (input, diagnostics) = if path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("vm")) {
+        match model::read(&text) {
+            Ok(Model::Solid(scene)) => (Some(Input::Scene(scene)), Vec::new()),
+            Ok(Model::Region(region)) => (Some(Input::Region(region)), Vec::new()),
+            Err(fault) => (None, vec![fault]),
+        }
+    } else {
+        let Reading { scene, diagnostics } = scene::read(&text);
+        (scene.map(|scene| Input::Scene(Box::new(scene))), diagnostics)
+    };
     if !diagnostics.is_empty() {
         let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
         eprint!("{}", report(&text, &name, &diagnostics, color));
     }
-    scene.ok_or_else(|| {
+    input.ok_or_else(|| {
         let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
         Failure::Input(format!("{name} has {errors} error{}", if errors == 1 { "" } else { "s" }))
     })

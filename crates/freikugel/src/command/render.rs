@@ -1,10 +1,13 @@
-//! `freikugel render`: a picture of a scene.
+//! `freikugel render`: a picture of a scene or model.
 
+use super::Failure;
+use super::input::{self, Input};
 use super::interrupt::Interrupt;
-use super::{Failure, input};
 use clap::ValueEnum;
 use freikugel::files::{Format, Output};
+use freikugel::model::Region;
 use freikugel::render::{Options, Progress, Rect, RenderError, Rendered, Stats, render};
+use freikugel::scene::Picture;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -15,13 +18,14 @@ Examples:
   freikugel render cup.json -o cup.exr            linear colours, unclamped
   freikugel render cup.json --quality draft       one ray a pixel
   freikugel render cup.json --crop 100,50,64,64   a part of the frame, the same bytes as in the whole
-  freikugel render cup.json --stats cup-stats.json";
+  freikugel render cup.json --stats cup-stats.json
+  freikugel render cup.vm                         an expression graph: a solid, or without z a region of the plane";
 
 /// Render a picture of a scene.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {
-    /// The scene file, or - for standard input.
+    /// The scene file, or - for standard input; or a model, whose file is called `.vm`.
     scene: PathBuf,
     /// The picture, .png or .exr; by default the scene's name with .png, in the current folder.
     #[arg(short, long, value_name = "FILE")]
@@ -91,10 +95,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .ok_or_else(|| Failure::Usage(format!("{}: the suffix must be .png or .exr", path.display())))?;
     let level = arguments.simd.as_deref().map(instruction_set).transpose()?;
 
-    let scene = input::scene(&arguments.scene)?;
-    let mut options = Options { crop: arguments.crop, threads: arguments.threads, level, ..Options::of(&scene) };
+    let input = input::read(&arguments.scene)?;
+    let given = match &input {
+        Input::Scene(scene) => Options::of(scene),
+        Input::Region(_) => Region::options(),
+    };
+    let mut options = Options { crop: arguments.crop, threads: arguments.threads, level, ..given };
     options.width = arguments.width.unwrap_or(options.width);
     options.height = arguments.height.unwrap_or(options.height);
+    if let (Input::Region(_), Some(side), None) | (Input::Region(_), None, Some(side)) =
+        (&input, arguments.width, arguments.height)
+    {
+        // Regions are seen in a square unless both sides are given.
+        (options.width, options.height) = (side, side);
+    }
     options.samples = arguments.samples.or(arguments.quality.map(Quality::samples)).unwrap_or(options.samples);
     options.region().map_err(|error| Failure::Usage(error.to_string()))?;
 
@@ -108,7 +122,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stats_file = arguments.stats.as_deref().map(open).transpose()?;
 
     let watch = Watch { bar: progress_bar(arguments.quiet), interrupt: interrupt.clone() };
-    let rendered = render(&scene, &options, &watch);
+    let rendered = match &input {
+        Input::Scene(scene) => render(scene, &options, &watch),
+        Input::Region(region) => region.render(&options, &watch),
+    };
     watch.bar.finish_and_clear();
     let rendered = rendered.map_err(|error| match error {
         RenderError::Cancelled => Failure::Interrupted,
@@ -116,7 +133,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         error => Failure::Input(error.to_string()),
     })?;
 
-    let bytes = format.encode(&rendered, &scene.picture).map_err(|error| Failure::Input(error.to_string()))?;
+    let picture = match &input {
+        Input::Scene(scene) => scene.picture.clone(),
+        Input::Region(_) => Picture::default(),
+    };
+    let bytes = format.encode(&rendered, &picture).map_err(|error| Failure::Input(error.to_string()))?;
     if interrupt.is_requested() {
         return Err(Failure::Interrupted);
     }
