@@ -93,8 +93,7 @@ impl Survey {
         let (ends, boxes) = (&self.ends, self.boxes);
         let range = |id: StepId| ends[id.index() * boxes + place];
         let Scratch { settled, windows, renamed } = &mut self.scratch;
-        settle(program, list, range, settled);
-        let dropped = mark(list, result, range, settled, windows);
+        let dropped = mark(program, list, result, range, settled, windows);
         if dropped == 0 {
             return Arc::clone(part);
         }
@@ -102,27 +101,30 @@ impl Survey {
     }
 }
 
-/// What each combination comes to by the ranges of its operands.
-fn settle(program: &Program, list: &[Step], range: impl Fn(StepId) -> [f32; 2], settled: &mut Vec<Settled>) {
+/// What a step comes to by the ranges of its operands.
+fn settle(program: &Program, step: &Step, range: impl Fn(StepId) -> [f32; 2]) -> Settled {
     let interval = |id: StepId| {
         let [lo, hi] = range(id);
         (lo <= hi).then(|| Interval::new(lo.into(), hi.into()))
     };
-    let judge = |step: &Step| match *step {
+    let pair = |a: StepId, b: StepId| Some((interval(a)?, interval(b)?));
+    match *step {
         Step::Combine { table, a, b, constants } => {
-            Some((table.settle)(interval(a)?, interval(b)?, &program.double[constants.range()]))
+            pair(a, b).map_or(Settled::Open, |(a, b)| (table.settle)(a, b, &program.double[constants.range()]))
         }
-        Step::Binary { op: Binary::Min, a, b } => Some(Settled::lesser(interval(a)?, interval(b)?, 0.0)),
-        Step::Binary { op: Binary::Max, a, b } => Some(Settled::lesser(-interval(a)?, -interval(b)?, 0.0)),
+        Step::Binary { op: Binary::Min, a, b } => {
+            pair(a, b).map_or(Settled::Open, |(a, b)| Settled::lesser(a, b, 0.0))
+        }
+        Step::Binary { op: Binary::Max, a, b } => {
+            pair(a, b).map_or(Settled::Open, |(a, b)| Settled::lesser(-a, -b, 0.0))
+        }
         Step::Unary { op: Unary::Abs, from } => match range(from) {
-            [lo, _] if lo > 0.0 => Some(Settled::First),
-            [_, hi] if hi < 0.0 => Some(Settled::NotSecond),
-            _ => None,
+            [lo, _] if lo > 0.0 => Settled::First,
+            [_, hi] if hi < 0.0 => Settled::NotSecond,
+            _ => Settled::Open,
         },
-        _ => None,
-    };
-    settled.clear();
-    settled.extend(list.iter().map(|step| judge(step).unwrap_or(Settled::Open)));
+        _ => Settled::Open,
+    }
 }
 
 /// The operands of a step that picks one of two values, and whether it picks the lesser or the greater.
@@ -161,18 +163,21 @@ impl Window {
     }
 }
 
-/// Finds what the result still depends on, and settles choices of which an operand is too large or too small to matter in
-/// the end. Returns how many steps don't matter.
+/// Finds what the result still depends on, and settles choices: by their own operands, and those of which an operand is too
+/// large or too small to matter in the end. Returns how many steps don't matter.
 ///
 /// A chain of minima is settled from its end: an operand above the largest value that the whole chain can have is not
 /// needed, even if it is not above the operands before it. Chains of maxima likewise.
 fn mark(
+    program: &Program,
     list: &[Step],
     result: StepId,
     range: impl Fn(StepId) -> [f32; 2],
-    settled: &mut [Settled],
+    settled: &mut Vec<Settled>,
     windows: &mut Vec<Window>,
 ) -> usize {
+    settled.clear();
+    settled.resize(list.len(), Settled::Open);
     windows.clear();
     windows.resize(list.len(), Window::UNREAD);
     windows[StepId::POINT.index()] = Window::ALL;
@@ -185,6 +190,7 @@ fn mark(
         }
         needed += 1;
         let step = &list[index];
+        settled[index] = settle(program, step, &range);
         let mut window = Window::ALL;
         if let Some((a, b, choice)) = choice(step) {
             let [lo, hi] = range(StepId(index as u32));

@@ -18,7 +18,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 /// The side of the tiles that threads take in turn, in points. The whole program is surveyed over all of them at once.
-const TILE: u32 = 128;
+const TILE: u32 = 256;
 
 /// Into how many parts a tile is split along each side: two vectors of the widest lanes.
 const SPLIT: u32 = 4;
