@@ -20,14 +20,15 @@ const DIRECTION: DVec3 = DVec3::new(0.5, -0.75, 0.6);
 /// How far the eye is from the middle: outside everything. Parallel rays look the same from any distance.
 const DISTANCE: f64 = 4.0;
 
-/// A view in 3D.
+/// What is viewed in 3D.
 struct Subject {
-    name: String,
-    scene: Scene,
-    view: View,
+    field: Field,
     /// The model's text, if the peer reads it itself; otherwise it gets our operations.
     text: Option<String>,
 }
+
+/// Makes what is viewed, or says why it can't.
+type MakeSubject<'a> = Box<dyn Fn() -> Result<Subject, String> + 'a>;
 
 /// A camera whose view has this half height.
 pub fn camera(half: f64) -> Camera {
@@ -47,10 +48,22 @@ pub fn rows(is_wanted: &dyn Fn(&str) -> bool, data: Option<&Path>, others: &[usi
     for file in ["prospero.vm", "hi.vm"] {
         sections(file, is_wanted, data, others, &mut rows);
     }
-    for subject in subjects(is_wanted, data) {
-        match subject {
-            Ok(subject) => views(subject, is_wanted, others, &mut rows),
-            Err((name, reason)) => rows.push(missing(name, &reason)),
+    for (name, view, field) in subjects(data) {
+        let title = |threads: usize| {
+            format!("{name}, view with normals, {} x {}, {}", view.width, view.height, counted(threads))
+        };
+        let wanted: Vec<(usize, String)> = [1]
+            .into_iter()
+            .chain(others.iter().copied())
+            .map(|threads| (threads, title(threads)))
+            .filter(|(_, title)| is_wanted(title))
+            .collect();
+        if wanted.is_empty() {
+            continue;
+        }
+        match field() {
+            Ok(subject) => views(subject, view, wanted, &mut rows),
+            Err(reason) => rows.extend(wanted.into_iter().map(|(_, title)| missing(title, &reason))),
         }
     }
     rows
@@ -129,52 +142,34 @@ fn counted(threads: usize) -> String {
     format!("{threads} thread{}", if threads == 1 { "" } else { "s" })
 }
 
-/// What is viewed, where its name is wanted; or the name and the reason why it can't be.
-fn subjects(
-    is_wanted: &dyn Fn(&str) -> bool,
-    data: Option<&Path>,
-) -> Vec<Result<Subject, (String, String)>> {
-    let mut subjects = Vec::new();
+/// What is viewed, with its name.
+fn subjects(data: Option<&Path>) -> Vec<(&'static str, View, MakeSubject<'_>)> {
     let view = |width, height, scale| View { width, height, scale };
-    for (name, field, view) in [
-        ("csg20", fields::csg20 as fn() -> Field, view(640, 360, 1.1)),
-        ("many256", || fields::many(256), view(512, 512, 1.6)),
-    ] {
-        if is_wanted(name) {
-            let scene = scene(field(), view.scale);
-            subjects.push(Ok(Subject { name: name.into(), scene, view, text: None }));
+    let own = |field: fn() -> Field| -> MakeSubject<'_> { Box::new(move || Ok(Subject { field: field(), text: None })) };
+    let colonnade = move || {
+        let text = text_of(data, "colonnade.vm")?;
+        match model::read(&text).map_err(|error| error.message)? {
+            Model::Region(_) => Err("it is no solid".into()),
+            Model::Solid(scene) => Ok(Subject { field: scene.objects[0].shape.clone(), text: Some(text) }),
         }
-    }
-    let name = "colonnade.vm";
-    if is_wanted(name) {
-        let read = || -> Result<Subject, String> {
-            let text = text_of(data, name)?;
-            match model::read(&text).map_err(|error| error.message)? {
-                Model::Region(_) => Err("it is no solid".into()),
-                Model::Solid(mut scene) => {
-                    // As wide as the peer's recommended settings for it.
-                    let view = view(512, 512, 1.0 / 0.7);
-                    scene.camera(camera(view.scale));
-                    Ok(Subject { name: name.into(), scene: *scene, view, text: Some(text) })
-                }
-            }
-        };
-        subjects.push(read().map_err(|reason| (name.into(), reason)));
-    }
-    subjects
+    };
+    vec![
+        ("csg20", view(640, 360, 1.1), own(fields::csg20)),
+        ("many256", view(512, 512, 1.6), own(|| fields::many(256))),
+        // As wide as the peer's recommended settings for it.
+        ("colonnade.vm", view(512, 512, 1.0 / 0.7), Box::new(colonnade)),
+    ]
 }
 
-fn views(subject: Subject, is_wanted: &dyn Fn(&str) -> bool, others: &[usize], rows: &mut Vec<Row<'static>>) {
-    let Subject { name, scene, view, text } = subject;
-    let View { width, height, .. } = view;
-    let name = |threads: usize| format!("{name}, view with normals, {width} x {height}, {}", counted(threads));
+fn views(Subject { field, text }: Subject, view: View, wanted: Vec<(usize, String)>, rows: &mut Vec<Row<'static>>) {
     // It lives as long as the process, as the renderer that borrows it.
-    let scene: &'static Scene = Box::leak(Box::new(scene));
+    let scene: &'static Scene = Box::leak(Box::new(scene(field, view.scale)));
     let renderer: &'static Renderer<'static> = Box::leak(Box::new(Renderer::new(scene).expect("a sound scene")));
     let peer = match text {
         Some(text) => Peer::read(&text),
         None => Peer::translate(&crate::evaluation::program(scene.objects[0].shape.clone())),
     };
+    let View { width, height, .. } = view;
     let ours = |threads: usize, clock: Clock| {
         let options = Options { width, height, threads: Some(threads), ..Options::default() };
         Contender::new(format!("Freikugel, {}", counted(threads)), clock, move || {
@@ -193,9 +188,5 @@ fn views(subject: Subject, is_wanted: &dyn Fn(&str) -> bool, others: &[usize], r
             black_box(work());
         })
     };
-    for threads in [1].into_iter().chain(others.iter().copied()) {
-        if is_wanted(&name(threads)) {
-            rows.push(both(name(threads), threads, &ours, &theirs));
-        }
-    }
+    rows.extend(wanted.into_iter().map(|(threads, title)| both(title, threads, &ours, &theirs)));
 }
