@@ -46,6 +46,7 @@ pub mod scalar;
 pub mod shape;
 pub mod shapes;
 pub mod simd;
+mod spine;
 pub mod structure;
 pub mod vector;
 

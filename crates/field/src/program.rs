@@ -10,6 +10,7 @@ use crate::kernel::{CombineFn, CombineKernels, Dual2, ModifyFn, ModifyKernels, P
 use crate::lower::Listing;
 use crate::operation::{Code, Derive, NO_REGION, Run, Step, Steps, inverse_of};
 use crate::scalar::{Constants, Dual, Interval, Scalar};
+use crate::spine::Spine;
 use crate::vector::{Vec3, spectral_norm};
 use glam::DVec3;
 use std::sync::{Arc, OnceLock};
@@ -222,6 +223,7 @@ pub struct Part {
     one_by_one: OnceLock<Listing>,
     kept: OnceLock<Listing>,
     regions: OnceLock<Vec<u32>>,
+    spine: OnceLock<Option<Spine>>,
 }
 
 impl Part {
@@ -235,6 +237,7 @@ impl Part {
             one_by_one,
             kept: OnceLock::new(),
             regions: OnceLock::new(),
+            spine: OnceLock::new(),
         }
     }
 
@@ -270,6 +273,11 @@ impl Part {
     /// The operations that keep every intermediate value.
     pub(crate) fn kept(&self) -> &Listing {
         self.kept.get_or_init(|| Listing::keeping_all(&self.steps))
+    }
+
+    /// The chain of minima that it ends with, if that is a long one.
+    pub(crate) fn spine(&self) -> Option<&Spine> {
+        self.spine.get_or_init(|| Spine::of(&self.steps)).as_ref()
     }
 
     /// The regions of all its surfaces, in order.

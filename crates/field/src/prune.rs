@@ -8,13 +8,14 @@
 
 use crate::bank::{Bank, Ranges};
 use crate::formula::{Binary, Unary};
-use crate::kernel::WIDEST;
+use crate::kernel::{BATCH, WIDEST};
 use crate::operation::{Run, Step, StepId, Steps};
 use crate::program::{Part, Program};
 use crate::scalar::Interval;
 use crate::shape::{Kind, ModifyTable, Settled};
 use crate::shapes;
 use crate::simd::Level;
+use crate::spine::Excerpt;
 use std::sync::Arc;
 
 /// Boxes of one size, relative to the program's origin.
@@ -32,8 +33,13 @@ pub(crate) struct Survey {
     /// Step by step, a lower and an upper end for each box.
     ends: Vec<[f32; 2]>,
     boxes: usize,
+    /// Operand by operand of the part's chain of minima, if it has one: a bit for each box where it can't be the least.
+    excluded: Vec<Bits>,
     scratch: Scratch,
 }
+
+/// One bit for each box.
+type Bits = [u64; BATCH / 64];
 
 /// What the reduction for one box works with.
 #[derive(Default)]
@@ -41,6 +47,7 @@ struct Scratch {
     settled: Vec<Settled>,
     windows: Vec<Window>,
     renamed: Vec<StepId>,
+    excerpt: Excerpt,
 }
 
 impl Survey {
@@ -74,6 +81,25 @@ impl Survey {
                 }
             }
         }
+        self.exclude(part);
+    }
+
+    /// Finds which operands of a chain of minima can't be the least, box by box: those above the largest value of the chain.
+    fn exclude(&mut self, part: &Part) {
+        self.excluded.clear();
+        let (Some(spine), Some(result)) = (part.spine(), part.steps.result) else {
+            return;
+        };
+        let boxes = self.boxes;
+        let row = |id: StepId| &self.ends[id.index() * boxes..(id.index() + 1) * boxes];
+        let ceilings: Vec<f32> = row(result).iter().map(|[_, hi]| *hi).collect();
+        self.excluded.extend(spine.entries().iter().map(|entry| {
+            let mut bits = Bits::default();
+            for (lane, ([lo, _], ceiling)) in row(entry.operand()).iter().zip(&ceilings).enumerate() {
+                bits[lane / 64] |= u64::from(lo > ceiling) << (lane % 64);
+            }
+            bits
+        }));
     }
 
     /// The range of the result over a box.
@@ -92,7 +118,20 @@ impl Survey {
         let list = &part.steps.list;
         let (ends, boxes) = (&self.ends, self.boxes);
         let range = |id: StepId| ends[id.index() * boxes + place];
-        let Scratch { settled, windows, renamed } = &mut self.scratch;
+        let Scratch { settled, windows, renamed, excerpt } = &mut self.scratch;
+        if let Some(spine) = part.spine() {
+            let (word, bit) = (place / 64, place % 64);
+            let is_kept = |entry: usize| self.excluded[entry][word] >> bit & 1 == 0;
+            if let Some(result) = excerpt.take(&part.steps, spine, is_kept) {
+                let Excerpt { list, origin } = excerpt;
+                let range = |id: StepId| range(origin[id.index()]);
+                let dropped = mark(program, list, result, range, settled, windows);
+                if dropped == 0 && list.len() == part.steps.list.len() {
+                    return Arc::clone(part);
+                }
+                return Arc::new(Part::new(rebuild(list, result, settled, windows, renamed)));
+            }
+        }
         let dropped = mark(program, list, result, range, settled, windows);
         if dropped == 0 {
             return Arc::clone(part);
@@ -112,9 +151,7 @@ fn settle(program: &Program, step: &Step, range: impl Fn(StepId) -> [f32; 2]) ->
         Step::Combine { table, a, b, constants } => {
             pair(a, b).map_or(Settled::Open, |(a, b)| (table.settle)(a, b, &program.double[constants.range()]))
         }
-        Step::Binary { op: Binary::Min, a, b } => {
-            pair(a, b).map_or(Settled::Open, |(a, b)| Settled::lesser(a, b, 0.0))
-        }
+        Step::Binary { op: Binary::Min, a, b } => pair(a, b).map_or(Settled::Open, |(a, b)| Settled::lesser(a, b, 0.0)),
         Step::Binary { op: Binary::Max, a, b } => {
             pair(a, b).map_or(Settled::Open, |(a, b)| Settled::lesser(-a, -b, 0.0))
         }
