@@ -119,7 +119,10 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     let mut grown: Vec<Json> = Vec::new();
     if !counts.is_empty() {
         let threads = arguments.threads.iter().copied().max().unwrap_or(1);
-        println!("\nWith {threads} threads, 640 x 360, camera rays and normals:\n\n{}", growth::HEADING.trim_end());
+        println!(
+            "\nWith up to {threads} threads, 640 x 360, camera rays and normals:\n\n{}",
+            growth::HEADING.trim_end()
+        );
         for count in counts {
             let row = growth::in_process(count, threads, runs);
             print!("{}", growth::markdown(count, &row));
@@ -144,8 +147,7 @@ fn machine() -> String {
     let model = value("model name").unwrap_or_else(|| "an unknown processor".into());
     let family = [value("cpu family"), value("model")].map(Option::unwrap_or_default);
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let levels: Vec<&str> =
-        freikugel::field::simd::available().into_iter().map(freikugel::field::simd::name).collect();
+    let levels: Vec<&str> = freikugel::field::simd::available().into_iter().map(freikugel::field::simd::name).collect();
     format!(
         "{cores} cores, {model} (family {}, model {}), {}, {}",
         family[0],

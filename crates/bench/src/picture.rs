@@ -145,7 +145,8 @@ fn counted(threads: usize) -> String {
 /// What is viewed, with its name.
 fn subjects(data: Option<&Path>) -> Vec<(&'static str, View, MakeSubject<'_>)> {
     let view = |width, height, scale| View { width, height, scale };
-    let own = |field: fn() -> Field| -> MakeSubject<'_> { Box::new(move || Ok(Subject { field: field(), text: None })) };
+    let own =
+        |field: fn() -> Field| -> MakeSubject<'_> { Box::new(move || Ok(Subject { field: field(), text: None })) };
     let colonnade = move || {
         let text = text_of(data, "colonnade.vm")?;
         match model::read(&text).map_err(|error| error.message)? {

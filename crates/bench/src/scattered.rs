@@ -55,7 +55,10 @@ pub fn scene(count: usize, kind: Kind, blend: Option<f64>) -> String {
     }
     text += "  },\n  \"objects\": [\n";
     if let Some(blend) = blend {
-        let _ = writeln!(text, "    {{ \"material\": \"0\", \"shape\": {{ \"smooth_union\": {{ \"k\": {blend}, \"shapes\": [");
+        let _ = writeln!(
+            text,
+            "    {{ \"material\": \"0\", \"shape\": {{ \"smooth_union\": {{ \"k\": {blend}, \"shapes\": ["
+        );
     }
     for index in 0..count {
         let [x, y, z] = [(); 3].map(|()| random.next() * 2.0 - 1.0);

@@ -16,8 +16,10 @@ fn folder() -> PathBuf {
 fn scenes() -> Vec<(PathBuf, Option<PathBuf>)> {
     let files = |folder: PathBuf, suffix: &str| -> Vec<PathBuf> {
         let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-        let mut files: Vec<PathBuf> =
-            entries.map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|own| own == suffix)).collect();
+        let mut files: Vec<PathBuf> = entries
+            .map(|entry| entry.path())
+            .filter(|path| path.extension().is_some_and(|own| own == suffix))
+            .collect();
         files.sort();
         files
     };

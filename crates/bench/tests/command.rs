@@ -23,8 +23,7 @@ fn a_filter_chooses_the_work() {
     let rows: Vec<&str> = text.lines().filter(|line| line.contains("M points/s")).collect();
     assert!(rows[0].starts_with("| gyroid in a sphere"), "{text}");
     assert!(rows.iter().any(|row| row.contains("fidget JIT")), "{text}");
-    let figures: serde_json::Value =
-        serde_json::from_slice(&std::fs::read(&json).expect("written")).expect("JSON");
+    let figures: serde_json::Value = serde_json::from_slice(&std::fs::read(&json).expect("written")).expect("JSON");
     assert_eq!(figures["rows"].as_array().map(Vec::len), Some(1));
     for contender in figures["rows"][0]["contenders"].as_array().expect("contenders") {
         assert!(contender["figure"].as_f64().expect("a figure") > 0.0, "{contender}");
