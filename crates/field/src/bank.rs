@@ -8,6 +8,7 @@ use crate::kernel::{
 };
 use crate::lower::{Listing, Op, Operand};
 use crate::program::Program;
+use crate::shape::Kind;
 use crate::simd::Level;
 use std::marker::PhantomData;
 
@@ -296,6 +297,68 @@ macro_rules! over_boxes {
             }
         }
     };
+}
+
+/// Taylor models along one parameter.
+#[derive(Default)]
+pub(crate) struct Models;
+
+impl Number for Models {
+    const COMPONENTS: usize = 6;
+    const FORMULA: FormulaKernels = formula_kernel::MODELS;
+    type Reach = Reach;
+
+    fn primitive(level: Level, call: PrimitiveCall<'_, Self>) {
+        primitive_model(level, call);
+    }
+    fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>) {
+        kernels.models
+    }
+    fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>) {
+        kernels.models
+    }
+    fn affine(level: Level, job: &mut AffineJob<'_>) {
+        crate::kernel::affine_models(level, job);
+    }
+    fn stretched(from: &Reach, norm: f32) -> Reach {
+        from.stretched(norm)
+    }
+}
+
+/// A primitive along a line: its value in the middle, and as much to either side as its largest slope allows.
+fn primitive_model(level: Level, call: PrimitiveCall<'_, Models>) {
+    let PrimitiveCall { table, mut job, slope, reach } = call;
+    if let Some(kernel) = table.models {
+        return kernel(level, &mut job);
+    }
+    let PrimitiveJob { points, at, constants, before, out, count } = job;
+    let middle = [0, 1, 2].map(|axis| points[axis * Models::COMPONENTS].clone());
+    let mut own: [Block; Models::COMPONENTS] = Default::default();
+    let mut job =
+        PrimitiveJob { points: &middle, at, constants, before: None, out: std::slice::from_mut(&mut own[0]), count };
+    (table.kernels.values)(level, &mut job);
+    let size = |axis: usize, lane: usize| middle[axis].0[lane].abs() + at[axis].abs();
+    for lane in 0..count {
+        let value = own[0].0[lane];
+        let mut radius = 0.0;
+        for point in points.chunks_exact(Models::COMPONENTS) {
+            let reach: f32 = point[1..].iter().map(|term| term.0[lane].abs()).sum();
+            radius += reach * reach;
+        }
+        let radius = (radius.sqrt() * WIDER).min(reach.radius.0[lane]);
+        let rounding = ROUNDING * (size(0, lane) + size(1, lane) + size(2, lane) + value.abs());
+        let slack = slope * radius * WIDER + rounding;
+        let is_known = slack < f32::INFINITY;
+        own[0].0[lane] = if is_known { value } else { 0.0 };
+        own[Models::COMPONENTS - 1].0[lane] = if is_known { slack } else { f32::INFINITY };
+    }
+    match before {
+        None => out.clone_from_slice(&own),
+        Some(a) => {
+            let Kind::Combine(union) = &crate::shapes::UNION.kind else { unreachable!("union combines") };
+            (union.kernels.models)(level, &mut CombineJob { a, b: &own, constants: &[], out, count });
+        }
+    }
 }
 
 over_boxes!(Ranges, 2, ranges, affine_ranges, RANGES);

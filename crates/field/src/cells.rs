@@ -6,6 +6,7 @@
 use crate::contract::Aabb;
 use crate::kernel::BATCH;
 use crate::program::{Part, Program};
+pub use crate::prune::Wanted;
 use crate::prune::{Boxes, Survey};
 use crate::simd::Level;
 use std::sync::{Arc, OnceLock};
@@ -100,9 +101,9 @@ impl Surveyed<'_> {
         }
     }
 
-    /// What matters in a box.
-    pub fn part(&mut self, place: usize) -> Arc<Part> {
-        self.survey.reduce(self.program, self.part, place)
+    /// What matters in a box for what is wanted.
+    pub fn part(&mut self, place: usize, wanted: Wanted) -> Arc<Part> {
+        self.survey.reduce(self.program, self.part, place, wanted)
     }
 }
 
@@ -183,7 +184,7 @@ fn split(program: &Program, cell: &Cell, splitter: &mut Splitter) -> Box<[Cell]>
                 _ => Occupancy::Surface,
             };
             let part = match occupancy {
-                Occupancy::Surface => survey.reduce(program, &cell.part, place),
+                Occupancy::Surface => survey.reduce(program, &cell.part, place, Wanted::Surface),
                 _ => Arc::clone(&cell.part),
             };
             let middle = [x[place], y[place], z[place]];

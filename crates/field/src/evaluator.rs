@@ -4,7 +4,7 @@
 //! one kernel call over the whole batch. An evaluator is the scratch memory of one thread.
 
 use crate::bank::{Bank, Gradients, Values};
-use crate::kernel::{BATCH, Block, CombineJob};
+use crate::kernel::{BATCH, Block, CombineJob, WIDEST};
 use crate::operation::{NO_REGION, Step, StepId};
 use crate::program::{Part, Program};
 use crate::simd::{self, Level};
@@ -120,6 +120,25 @@ impl<'p> Evaluator<'p> {
         }
     }
 
+    /// The field at `count` points that `fill` writes, coordinate by coordinate, all of which lie where `part` holds.
+    ///
+    /// For inner loops: nothing is copied, in contrast to [`Evaluator::values_in`].
+    ///
+    /// # Panics
+    /// If `count` is above [`BATCH`] or no multiple of [`WIDEST`].
+    pub fn batch_in(&mut self, part: &Part, count: usize, fill: impl FnOnce([&mut [f32]; 3])) -> &[f32] {
+        assert!(count <= BATCH && count.is_multiple_of(WIDEST), "whole vectors, at most a batch");
+        let listing = part.listing();
+        let Some(result) = listing.result else {
+            return &NOWHERE[..count];
+        };
+        self.values.prepare(listing);
+        let [x, y, z, ..] = &mut self.values.points[..] else { unreachable!("a point has three coordinates") };
+        fill([&mut x.0[..count], &mut y.0[..count], &mut z.0[..count]]);
+        self.values.run(self.program, &listing.ops, self.level, count);
+        &self.values.value(result)[0].0[..count]
+    }
+
     /// The field and its gradient at each point.
     ///
     /// # Panics
@@ -219,6 +238,9 @@ impl<'p> Evaluator<'p> {
         }
     }
 }
+
+/// The distances to nothing.
+static NOWHERE: [f32; BATCH] = [f32::INFINITY; BATCH];
 
 /// Consecutive ranges of at most a batch.
 fn batches(count: usize) -> impl Iterator<Item = Range<usize>> {

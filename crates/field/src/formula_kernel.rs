@@ -5,7 +5,7 @@
 
 use crate::formula::{Binary, Unary};
 use crate::kernel::{BATCH, Block, Packed, WIDEST};
-use crate::scalar::{Dual, Intervals, Lanes};
+use crate::scalar::{Dual, Intervals, Lanes, Taylor};
 use crate::simd::{Level, dispatch};
 use fearless_simd::Simd;
 
@@ -183,3 +183,21 @@ kernels!(VALUES, Lanes<_>);
 kernels!(GRADIENTS, Dual<Lanes<_>>);
 kernels!(RANGES, Intervals<_>);
 kernels!(JETS, Dual<Intervals<_>, 1>);
+
+/// A product with a constant needs no product of polynomials.
+pub(crate) const MODELS: FormulaKernels = FormulaKernels {
+    binary: |level, op, job| {
+        let BinaryJob { a, b, ref mut out, count } = *job;
+        match (op, a, b) {
+            (Binary::Mul, Source::Register(from), Source::Constant(factor))
+            | (Binary::Mul, Source::Constant(factor), Source::Register(from)) => {
+                dispatch!(level, token => map::<_, Taylor<_>>(token, &mut UnaryJob { from, out, count },
+                    #[inline(always)] |a| a * factor));
+            }
+            _ => (ALL_MODELS.binary)(level, op, job),
+        }
+    },
+    ..ALL_MODELS
+};
+
+kernels!(ALL_MODELS, Taylor<_>);

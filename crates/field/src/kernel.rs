@@ -6,7 +6,7 @@
 //! store, which is slow on some processors. Inside, the formula and everything below it is inlined and compiled for one instruction set.
 
 use crate::expr::Expr;
-use crate::scalar::{Constants, Dual, Interval, Intervals, Lanes, Scalar};
+use crate::scalar::{Constants, Dual, Interval, Intervals, Lanes, Scalar, Taylor};
 use crate::shape::{Combine, Modify, Primitive};
 use crate::simd::{Level, dispatch};
 use crate::vector::{Vec3, vec3};
@@ -135,6 +135,37 @@ impl<I: Simd> Packed<I> for Dual<Intervals<I>, 1> {
     }
 }
 
+impl<I: Simd> Packed<I> for Taylor<I> {
+    const COMPONENTS: usize = 6;
+
+    #[inline(always)]
+    fn splat(token: I, number: f64) -> Self {
+        let zero = Lanes::splat(token, 0.0);
+        Self::around(zero, zero).lift(number)
+    }
+
+    #[inline(always)]
+    fn load(token: I, from: &[Block], lane: usize) -> Self {
+        let from = &from[..Self::COMPONENTS];
+        let lanes = lane..lane + Lanes::<I>::COUNT;
+        let mut number = [Lanes::load(token, &from[0].0[lanes.clone()]); 6];
+        for (number, block) in number.iter_mut().zip(from) {
+            *number = Lanes::load(token, &block.0[lanes.clone()]);
+        }
+        let [p0, p1, p2, p3, p4, r] = number;
+        Self { p: [p0, p1, p2, p3, p4], r }
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [Block], lane: usize) {
+        let (p, r) = to[..Self::COMPONENTS].split_at_mut(5);
+        for (term, block) in self.p.into_iter().zip(p) {
+            term.store(&mut block.0[lane..lane + Lanes::<I>::COUNT]);
+        }
+        self.r.store(&mut r[0].0[lane..lane + Lanes::<I>::COUNT]);
+    }
+}
+
 #[inline(always)]
 fn load_point<I: Simd, K: Packed<I>>(token: I, from: &[Block], lane: usize) -> Vec3<K> {
     let c = K::COMPONENTS;
@@ -197,6 +228,14 @@ fn primitive_gradients<P: Primitive>(level: Level, job: &mut PrimitiveJob<'_>) {
     dispatch!(level, token => primitive_loop::<P, _, Dual<Lanes<_>>>(token, job));
 }
 
+/// A primitive over one batch of points of some number type.
+pub type PrimitiveKernel = fn(Level, &mut PrimitiveJob<'_>);
+
+/// The formula of `P` over Taylor models.
+pub fn primitive_models<P: Primitive>(level: Level, job: &mut PrimitiveJob<'_>) {
+    dispatch!(level, token => primitive_loop::<P, _, Taylor<_>>(token, job));
+}
+
 /// A binary operator's work on one batch.
 pub struct CombineJob<'a> {
     /// The first operand.
@@ -242,6 +281,10 @@ fn combine_jets<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
     dispatch!(level, token => combine_loop::<C, _, Dual<Intervals<_>, 1>>(token, job, false));
 }
 
+fn combine_models<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
+    dispatch!(level, token => combine_loop::<C, _, Taylor<_>>(token, job, false));
+}
+
 fn combine_shares<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
     dispatch!(level, token => combine_loop::<C, _, Lanes<_>>(token, job, true));
 }
@@ -285,6 +328,10 @@ fn modify_ranges<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
 
 fn modify_jets<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
     dispatch!(level, token => modify_loop::<M, _, Dual<Intervals<_>, 1>>(token, job));
+}
+
+fn modify_models<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
+    dispatch!(level, token => modify_loop::<M, _, Taylor<_>>(token, job));
 }
 
 /// The affine map `p' = M p + t` as a formula; its first twelve constants are the columns of `M`, then `t`.
@@ -346,6 +393,11 @@ pub(crate) fn affine_jets(level: Level, job: &mut AffineJob<'_>) {
     dispatch!(level, token => affine_loop::<_, Dual<Intervals<_>, 1>>(token, job));
 }
 
+/// Maps a batch of Taylor models of points.
+pub(crate) fn affine_models(level: Level, job: &mut AffineJob<'_>) {
+    dispatch!(level, token => affine_loop::<_, Taylor<_>>(token, job));
+}
+
 /// A primitive's formula over one number type.
 pub type PrimitiveFn<S> = fn(Vec3<S>, &Constants<'_, S>) -> S;
 /// A binary operator's formula over one number type.
@@ -403,10 +455,10 @@ kernels!(
 kernels!(
     /// A binary operator's formula, for every number type.
     CombineKernels, Combine::combine, CombineFn, CombineJob, combine_values, combine_gradients,
-    [a: S, b: S], expr [Expr<'g>, Expr<'g>], ranges = combine_ranges, jets = combine_jets, shares = combine_shares
+    [a: S, b: S], expr [Expr<'g>, Expr<'g>], ranges = combine_ranges, jets = combine_jets, models = combine_models, shares = combine_shares
 );
 kernels!(
     /// A unary operator's formula, for every number type.
     ModifyKernels, Modify::modify, ModifyFn, ModifyJob, modify_values, modify_gradients,
-    [value: S], expr [Expr<'g>], ranges = modify_ranges, jets = modify_jets
+    [value: S], expr [Expr<'g>], ranges = modify_ranges, jets = modify_jets, models = modify_models
 );

@@ -51,10 +51,10 @@ pub mod structure;
 pub mod vector;
 
 pub use analysis::{Analysis, MAX_DEPTH, analyse, extent};
-pub use cells::{Cell, Cells, Occupancy, Splitter, Surveyed};
+pub use cells::{Cell, Cells, Occupancy, Splitter, Surveyed, Wanted};
 pub use contract::{Aabb, Contract, Extent, Metric};
 pub use diagnostic::{Diagnostic, Severity};
-pub use enclose::{Bounds, Encloser, Stretches};
+pub use enclose::{Bounds, Encloser, ModelLanes, StretchLanes, Stretches, ZeroLanes};
 pub use evaluator::{Evaluator, Points, Shares};
 pub use field::{Axis, Field, Form, MaterialId, Node, Origin, Triple, Value};
 pub use formula::Formula;
@@ -69,6 +69,7 @@ pub use vector::{Vec3, vec3};
 mod shape_prelude {
     pub(crate) use crate::contract::{Contract, Metric};
     pub(crate) use crate::field::{Field, Form, Triple, Value};
+    pub(crate) use crate::kernel::{PrimitiveKernel, primitive_models};
     pub(crate) use crate::scalar::{Constants, Interval, Scalar};
     pub(crate) use crate::shape::{
         AXIS, About, Combine, ExactForm, Hull, Modify, Param, ParamKind, Place, Primitive, Settled, Shape,

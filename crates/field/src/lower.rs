@@ -72,6 +72,15 @@ impl Listing {
         Self::with_fates(steps, &Fate::of_all(steps, true))
     }
 
+    /// The operations for two results. Returns the register of the second one besides.
+    pub(crate) fn of_two(steps: &Steps, second: StepId) -> (Self, usize) {
+        let mut fates = Fate::of_all(steps, true);
+        fates[second.index()] = Fate { last_use: u32::MAX, is_folded: false };
+        let listing = Self::with_fates(steps, &fates);
+        let register = listing.place[second.index()] as usize;
+        (listing, register)
+    }
+
     /// The operations for the result of some steps, one for each step but the first.
     pub(crate) fn one_by_one(steps: &Steps) -> Self {
         Self::with_fates(steps, &Fate::of_all(steps, false))

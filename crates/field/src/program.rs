@@ -6,9 +6,10 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Graph, Slots};
+use crate::formula::{Binary, Unary};
 use crate::kernel::{CombineFn, CombineKernels, Dual2, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels, affine};
 use crate::lower::Listing;
-use crate::operation::{Code, Derive, NO_REGION, Run, Step, Steps, inverse_of};
+use crate::operation::{Code, Derive, NO_REGION, Run, Step, StepId, Steps, inverse_of};
 use crate::scalar::{Constants, Dual, Interval, Scalar};
 use crate::spine::Spine;
 use crate::vector::{Vec3, spectral_norm};
@@ -222,6 +223,7 @@ pub struct Part {
     listing: OnceLock<Listing>,
     one_by_one: OnceLock<Listing>,
     kept: OnceLock<Listing>,
+    zeros: OnceLock<Zeros>,
     regions: OnceLock<Vec<u32>>,
     spine: OnceLock<Option<Spine>>,
 }
@@ -229,13 +231,16 @@ pub struct Part {
 impl Part {
     pub(crate) fn new(steps: Steps) -> Self {
         let one_by_one = OnceLock::new();
-        let is_measured = !steps.list.iter().any(|step| matches!(step, Step::Surface { .. }));
+        // What is computed from coordinates other than by primitives has no scale. A formula of which nothing but the cut is
+        // left does not read them any more.
+        let is_measured = !steps.list.iter().any(|step| matches!(step, Step::Coordinate { .. } | Step::Literal { .. }));
         Self {
             steps,
             is_measured,
             listing: OnceLock::new(),
             one_by_one,
             kept: OnceLock::new(),
+            zeros: OnceLock::new(),
             regions: OnceLock::new(),
             spine: OnceLock::new(),
         }
@@ -280,6 +285,11 @@ impl Part {
         self.spine.get_or_init(|| Spine::of(&self.steps)).as_ref()
     }
 
+    /// What the surface is made of, if that is known to be the zeros of simpler fields.
+    pub(crate) fn zeros(&self) -> &Zeros {
+        self.zeros.get_or_init(|| Zeros::of(&self.steps))
+    }
+
     /// The regions of all its surfaces, in order.
     pub(crate) fn regions(&self) -> &[u32] {
         self.regions.get_or_init(|| {
@@ -292,6 +302,49 @@ impl Part {
             regions.dedup();
             regions
         })
+    }
+}
+
+/// Fields that have the zeros of a part between them.
+#[derive(Debug)]
+pub(crate) struct Zeros {
+    /// The operations for the first one.
+    pub(crate) listing: Listing,
+    /// Whether the part has its absolute values.
+    pub(crate) is_sheet: bool,
+    /// The register of another field; the part has the larger one of both.
+    pub(crate) cut: Option<usize>,
+}
+
+impl Zeros {
+    fn of(steps: &Steps) -> Self {
+        let Some(result) = steps.result else {
+            return Self { listing: Listing::of(steps), is_sheet: false, cut: None };
+        };
+        let step = |id: StepId| steps.list[id.index()];
+        let bare = |mut id: StepId| {
+            while let Step::Surface { from, .. } = step(id) {
+                id = from;
+            }
+            id
+        };
+        let (first, cut) = match step(bare(result)) {
+            Step::Binary { op: Binary::Max, a, b } => (bare(a), Some(bare(b))),
+            _ => (bare(result), None),
+        };
+        let (first, is_sheet) = match step(first) {
+            Step::Unary { op: Unary::Abs, from } => (from, true),
+            _ => (first, false),
+        };
+        let count = cut.map_or(first, |cut| cut.max(first)).index() + 1;
+        let steps = Steps { list: steps.list[..count].to_vec(), result: Some(first) };
+        match cut {
+            None => Self { listing: Listing::of(&steps), is_sheet, cut: None },
+            Some(cut) => {
+                let (listing, register) = Listing::of_two(&steps, cut);
+                Self { listing, is_sheet, cut: Some(register) }
+            }
+        }
     }
 }
 

@@ -26,6 +26,15 @@ pub(crate) struct Boxes<'a> {
     pub(crate) half: [f32; 3],
 }
 
+/// What a reduced program is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// All values.
+    Values,
+    /// The surface, and the sign beside it; and the values, where they have a scale.
+    Surface,
+}
+
 /// The ranges of all values of a part over several boxes.
 #[derive(Default)]
 pub(crate) struct Survey {
@@ -111,7 +120,7 @@ impl Survey {
     }
 
     /// The steps that matter in a box. The part itself if all of them do.
-    pub(crate) fn reduce(&mut self, program: &Program, part: &Arc<Part>, place: usize) -> Arc<Part> {
+    pub(crate) fn reduce(&mut self, program: &Program, part: &Arc<Part>, place: usize, wanted: Wanted) -> Arc<Part> {
         let Some(result) = part.steps.result else {
             return Arc::clone(part);
         };
@@ -119,20 +128,26 @@ impl Survey {
         let (ends, boxes) = (&self.ends, self.boxes);
         let range = |id: StepId| ends[id.index() * boxes + place];
         let Scratch { settled, windows, renamed, excerpt } = &mut self.scratch;
+        // Without a scale only the sign tells anything of what is inside, so that it does not matter how far below 0 it is.
+        let window = match wanted {
+            Wanted::Values => Window::ALL,
+            Wanted::Surface if part.is_measured() => Window::ALL,
+            Wanted::Surface => Window { floor: 0.0, ..Window::ALL },
+        };
         if let Some(spine) = part.spine() {
             let (word, bit) = (place / 64, place % 64);
             let is_kept = |entry: usize| self.excluded[entry][word] >> bit & 1 == 0;
             if let Some(result) = excerpt.take(&part.steps, spine, is_kept) {
                 let Excerpt { list, origin } = excerpt;
                 let range = |id: StepId| range(origin[id.index()]);
-                let dropped = mark(program, list, result, range, settled, windows);
+                let dropped = mark(program, list, result, window, range, settled, windows);
                 if dropped == 0 && list.len() == part.steps.list.len() {
                     return Arc::clone(part);
                 }
                 return Arc::new(Part::new(rebuild(list, result, settled, windows, renamed)));
             }
         }
-        let dropped = mark(program, list, result, range, settled, windows);
+        let dropped = mark(program, list, result, window, range, settled, windows);
         if dropped == 0 {
             return Arc::clone(part);
         }
@@ -201,7 +216,8 @@ impl Window {
 }
 
 /// Finds what the result still depends on, and settles choices: by their own operands, and those of which an operand is too
-/// large or too small to matter in the end. Returns how many steps don't matter.
+/// large or too small to matter in the end. Returns how many steps don't matter. Values of the result outside `window` are as
+/// good as any others on that side of it.
 ///
 /// A chain of minima is settled from its end: an operand above the largest value that the whole chain can have is not
 /// needed, even if it is not above the operands before it. Chains of maxima likewise.
@@ -209,6 +225,7 @@ fn mark(
     program: &Program,
     list: &[Step],
     result: StepId,
+    window: Window,
     range: impl Fn(StepId) -> [f32; 2],
     settled: &mut Vec<Settled>,
     windows: &mut Vec<Window>,
@@ -218,7 +235,7 @@ fn mark(
     windows.clear();
     windows.resize(list.len(), Window::UNREAD);
     windows[StepId::POINT.index()] = Window::ALL;
-    windows[result.index()] = Window::ALL;
+    windows[result.index()] = window;
     let mut needed = 0;
     for index in (0..list.len()).rev() {
         let own = windows[index];
@@ -228,18 +245,17 @@ fn mark(
         needed += 1;
         let step = &list[index];
         settled[index] = settle(program, step, &range);
-        let mut window = Window::ALL;
+        let mut window = if let Step::Surface { .. } = step { own } else { Window::ALL };
         if let Some((a, b, choice)) = choice(step) {
             let [lo, hi] = range(StepId(index as u32));
-            // Only operands of the same choice inherit the window.
-            match choice {
-                Choice::Lesser => window.ceiling = own.ceiling.min(hi),
-                Choice::Greater => window.floor = own.floor.max(lo),
-            }
+            window = match choice {
+                Choice::Lesser => Window { ceiling: own.ceiling.min(hi), ..own },
+                Choice::Greater => Window { floor: own.floor.max(lo), ..own },
+            };
             if settled[index] == Settled::Open {
-                let is_outside = |id: StepId| {
-                    let [lo, hi] = range(id);
-                    lo > window.ceiling || hi < window.floor
+                let is_outside = |id: StepId| match (choice, range(id)) {
+                    (Choice::Lesser, [lo, _]) => lo > window.ceiling,
+                    (Choice::Greater, [_, hi]) => hi < window.floor,
                 };
                 settled[index] = match (is_outside(a), is_outside(b)) {
                     (false, true) => Settled::First,

@@ -15,12 +15,14 @@ mod interval;
 mod intervals;
 mod lanes;
 mod real;
+mod taylor;
 
 pub use dual::Dual;
 pub use interval::{Interval, Trilean};
 pub use intervals::{Intervals, LaneTrilean};
 pub(crate) use lanes::WIDEST;
 pub use lanes::{LaneMask, Lanes};
+pub use taylor::{DEGREE, Taylor};
 
 /// The outcome of a comparison, one truth value for each lane.
 pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {}

@@ -10,7 +10,7 @@
 //! - [`Modify`]: one distance to another.
 
 use crate::contract::Contract;
-use crate::kernel::{CombineKernels, ModifyKernels, PrimitiveKernels};
+use crate::kernel::{CombineKernels, ModifyKernels, PrimitiveKernel, PrimitiveKernels};
 use crate::scalar::{Constants, Interval, Scalar};
 use crate::vector::Vec3;
 use glam::{DAffine3, DVec3};
@@ -188,6 +188,10 @@ pub trait Primitive: 'static {
         None
     }
 
+    /// The kernel for Taylor models, [`crate::kernel::primitive_models`] of this primitive. It is worth its build time for
+    /// what formulas are combined with and cut to; without it a model is the value in the middle, give or take the slope.
+    const MODELS: Option<PrimitiveKernel> = None;
+
     /// The formula. Write `#[inline(always)]` before it: a formula that is not inlined loses the instruction set.
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S;
 }
@@ -357,6 +361,7 @@ pub struct PrimitiveTable {
     pub contract: fn(&[f64]) -> Contract,
     pub support: fn(&[f64], DVec3, f64) -> f64,
     pub exact_form: fn(&[f64]) -> Option<ExactForm>,
+    pub models: Option<PrimitiveKernel>,
     pub kernels: PrimitiveKernels,
 }
 
@@ -417,6 +422,7 @@ impl Shape {
                 contract: P::contract,
                 support: P::support,
                 exact_form: P::exact_form,
+                models: P::MODELS,
                 kernels: PrimitiveKernels::of::<P>(),
             }),
         }

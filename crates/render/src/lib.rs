@@ -37,6 +37,7 @@
 //! A pixel depends on its own rays alone and is the same, bit by bit, for any number of threads, any instruction set, and
 //! any crop of the frame.
 
+mod bundle;
 mod encode;
 mod filter;
 mod image;

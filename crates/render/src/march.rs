@@ -1,16 +1,15 @@
 //! Sphere tracing (Hart 1996) of many rays at once.
 //!
-//! Rays lie in structure-of-arrays buffers and advance together, one field evaluation of the whole buffer per
-//! step. A ray that is done stays where it is, costing evaluations but changing nothing, until enough of them
-//! are done to be worth removing. What a ray ends with depends on nothing but the ray itself.
+//! Rays lie in rows of lanes and advance together, one field evaluation of all rows per step. A ray that is done stays
+//! where it is, costing evaluations but changing nothing, until all rays of its row are done. What a ray ends with depends on
+//! nothing but the ray itself.
 //!
-//! There are two kinds of march. [`March::hard`] looks for the first surface. [`March::soft`] looks besides for
-//! the least ratio of clearance to distance travelled, the factor of soft shadows.
+//! There are two kinds of march. [`hard`] looks for the first surface. [`soft`] looks besides for the least ratio of
+//! clearance to distance travelled, the factor of soft shadows.
 
-use freikugel_field::{Evaluator, Part, Points};
-
-/// Rays are removed from the buffers when at least one in this many is done.
-const IDLE_SHARE: usize = 6;
+use crate::bundle::{Bundle, LANES, Rows, row, row_mut};
+use freikugel_field::simd;
+use freikugel_field::{Evaluator, Part};
 
 /// A soft shadow darker than this is black: less than half a step of 8 bits, even encoded.
 const NEGLIGIBLE: f32 = 1.0 / 8192.0;
@@ -74,8 +73,6 @@ pub(crate) struct End {
     pub(crate) steps: u32,
     /// For soft marches, the share of the light that arrives.
     pub(crate) factor: f32,
-    /// For soft marches, the ratio at the last step, times the sharpness.
-    pub(crate) before: f32,
     /// The cell in which the ray met something, by its place among those of the packet.
     pub(crate) place: u32,
 }
@@ -85,211 +82,145 @@ impl End {
     pub(crate) const NOWHERE: u32 = u32::MAX;
 }
 
-/// The rays on their way. All buffers are as long as the fullest wave so far.
-#[derive(Default)]
-pub(crate) struct March {
-    count: usize,
-    id: Vec<u32>,
-    steps: Vec<u32>,
-    origin: [Vec<f32>; 3],
-    direction: [Vec<f32>; 3],
-    t: Vec<f32>,
-    end: Vec<f32>,
-    base: Vec<f32>,
-    slope: Vec<f32>,
-    sharpness: Vec<f32>,
-    /// The factor so far.
-    factor: Vec<f32>,
-    /// The ratio one step ago, times the sharpness.
-    before: Vec<f32>,
-    point: [Vec<f32>; 3],
-    value: Vec<f32>,
-    /// Whether the last step moved the ray, so that its value is that of a point it has left.
-    moved: Vec<bool>,
-    /// Where the rays are that stay in a sweep.
-    kept: Vec<u32>,
+/// Takes the rays of some rows along their stretches to the first surface, and notes those that met one in `place`. Returns
+/// how many field values the rays needed.
+pub(crate) fn hard(
+    bundle: &mut Bundle,
+    rows: Rows,
+    field: &mut Evaluator<'_>,
+    part: &Part,
+    pace: Pace,
+    place: u32,
+) -> u64 {
+    let evaluations =
+        march(bundle, rows, field, part, |bundle, start, values| advance_hard(bundle, start, values, pace));
+    collect(bundle, rows, place, false);
+    evaluations
 }
 
-impl March {
-    /// Adds a ray, for soft marches with the factor so far and the ratio at the last step.
-    pub(crate) fn push(&mut self, ray: &Start, [factor, before]: [f32; 2]) {
-        let place = self.count;
-        self.count += 1;
-        if place == self.id.len() {
-            self.grow();
-        }
-        self.id[place] = ray.id;
-        self.steps[place] = ray.steps;
-        for axis in 0..3 {
-            self.origin[axis][place] = ray.origin[axis];
-            self.direction[axis][place] = ray.direction[axis];
-        }
-        self.t[place] = ray.span[0];
-        self.end[place] = ray.span[1];
-        self.base[place] = ray.tolerance[0];
-        self.slope[place] = ray.tolerance[1];
-        self.sharpness[place] = ray.sharpness;
-        self.factor[place] = factor;
-        self.before[place] = before;
-    }
+/// Takes the rays of some rows to the first surface, or to their end while looking for the least factor.
+pub(crate) fn soft(
+    bundle: &mut Bundle,
+    rows: Rows,
+    field: &mut Evaluator<'_>,
+    part: &Part,
+    pace: Pace,
+    place: u32,
+) -> u64 {
+    let evaluations =
+        march(bundle, rows, field, part, |bundle, start, values| advance_soft(bundle, start, values, pace));
+    collect(bundle, rows, place, true);
+    evaluations
+}
 
-    #[cold]
-    fn grow(&mut self) {
-        let length = (self.id.len() * 2).max(256);
-        let Self { id, steps, moved, kept, .. } = self;
-        for numbers in [id, steps, kept] {
-            numbers.resize(length, 0);
-        }
-        moved.resize(length, false);
-        let Self { origin, direction, t, end, base, slope, sharpness, factor, before, .. } = self;
-        for numbers in origin.iter_mut().chain(direction).chain([t, end, base, slope]) {
-            numbers.resize(length, 0.0);
-        }
-        let Self { point, value, .. } = self;
-        for numbers in point.iter_mut().chain([sharpness, factor, before, value]) {
-            numbers.resize(length, 0.0);
-        }
-    }
-
-    /// Takes all rays to their first surface. Appends how they ended, in no particular order, and returns how
-    /// many field values that took.
-    pub(crate) fn hard(&mut self, field: &mut Evaluator<'_>, part: &Part, pace: Pace, ends: &mut Vec<End>) -> u64 {
-        self.run(field, part, pace, ends, Self::advance_hard, false)
-    }
-
-    /// Takes all rays to the first surface, or to their end while looking for the least factor.
-    pub(crate) fn soft(&mut self, field: &mut Evaluator<'_>, part: &Part, pace: Pace, ends: &mut Vec<End>) -> u64 {
-        self.run(field, part, pace, ends, Self::advance_soft, true)
-    }
-
-    fn run(
-        &mut self,
-        field: &mut Evaluator<'_>,
-        part: &Part,
-        pace: Pace,
-        ends: &mut Vec<End>,
-        advance: fn(&mut Self, Pace) -> usize,
-        is_soft: bool,
-    ) -> u64 {
-        let mut evaluations = 0;
-        while self.count > 0 {
-            let count = self.count;
-            for axis in 0..3 {
-                let (point, t) = (&mut self.point[axis][..count], &self.t[..count]);
-                let origin = &self.origin[axis][..count];
-                let direction = &self.direction[axis][..count];
-                for ray in 0..count {
-                    point[ray] = origin[ray] + t[ray] * direction[ray];
+/// Advances rows until none of their rays goes on. `advance` takes one step with a row and returns how many rays went on.
+fn march(
+    bundle: &mut Bundle,
+    mut rows: Rows,
+    field: &mut Evaluator<'_>,
+    part: &Part,
+    advance: impl Fn(&mut Bundle, usize, &[f32; LANES]) -> u32,
+) -> u64 {
+    let level = field.level();
+    let mut evaluations = bundle.count_meeting(&rows);
+    while !rows.is_empty() {
+        let values = field.batch_in(part, rows.lanes(), |points| bundle.points_at(level, &rows, &bundle.enter, points));
+        let mut going = [0; crate::bundle::RAYS / LANES];
+        simd::with(
+            level,
+            #[inline(always)]
+            || {
+                for ((start, values), going) in rows.starts().zip(values.chunks_exact(LANES)).zip(&mut going) {
+                    *going = advance(bundle, start, values.try_into().expect("a row"));
                 }
-            }
-            let [x, y, z] = &self.point;
-            let points = Points { x: &x[..count], y: &y[..count], z: &z[..count] };
-            field.values_in(part, points, &mut self.value[..count]);
-            evaluations += count as u64;
-            if advance(self, pace) * IDLE_SHARE >= count {
-                self.sweep(ends, is_soft);
-            }
-        }
-        evaluations
+            },
+        );
+        evaluations += going.iter().map(|&count| u64::from(count)).sum::<u64>();
+        rows.retain(|place| going[place] > 0);
     }
+    evaluations
+}
 
-    /// Takes one step with all rays that are not done, and returns how many are.
-    fn advance_hard(&mut self, pace: Pace) -> usize {
-        let count = self.count;
-        let factor = pace.scale * pace.step_factor;
-        let (value, t, end) = (&self.value[..count], &mut self.t[..count], &self.end[..count]);
-        let (base, slope) = (&self.base[..count], &self.slope[..count]);
-        let (steps, moved) = (&mut self.steps[..count], &mut self.moved[..count]);
-        let mut going = 0;
-        for ray in 0..count {
-            let goes =
-                (value[ray] >= base[ray] + slope[ray] * t[ray]) & (t[ray] < end[ray]) & (steps[ray] < pace.max_steps);
-            moved[ray] = goes;
-            t[ray] += if goes { value[ray] * factor } else { 0.0 };
-            steps[ray] += u32::from(goes);
-            going += u32::from(goes);
-        }
-        count - going as usize
+/// Takes one step with all rays of a row that are not done, and returns how many those are.
+#[inline(always)]
+fn advance_hard(bundle: &mut Bundle, start: usize, values: &[f32; LANES], pace: Pace) -> u32 {
+    let factor = pace.scale * pace.step_factor;
+    let Bundle { enter, leave, base, growth, steps, value, .. } = bundle;
+    let (t, end) = (row_mut(enter, start), row(leave, start));
+    let (base, growth) = (row(base, start), row(growth, start));
+    let steps: &mut [u32; LANES] = (&mut steps[start..start + LANES]).try_into().expect("a row");
+    *row_mut(value, start) = *values;
+    let mut going = 0;
+    for ray in 0..LANES {
+        let goes =
+            (values[ray] >= base[ray] + growth[ray] * t[ray]) & (t[ray] < end[ray]) & (steps[ray] < pace.max_steps);
+        t[ray] += if goes { values[ray] * factor } else { 0.0 };
+        steps[ray] += u32::from(goes);
+        going += u32::from(goes);
     }
+    going
+}
 
-    /// As [`March::advance_hard`], with the factor of the shadow.
-    ///
-    /// The field being 1-Lipschitz after scaling, a step up to where clearance over distance could first fall below
-    /// the least ratio so far misses no smaller one. Where that would be tiny, the step is a fixed part of the
-    /// clearance instead; the whole of it if the ratio is steady, as it is on the way from a flat surface.
-    fn advance_soft(&mut self, pace: Pace) -> usize {
-        let count = self.count;
-        let (value, t, end) = (&self.value[..count], &mut self.t[..count], &self.end[..count]);
-        let (base, slope) = (&self.base[..count], &self.slope[..count]);
-        let (sharpness, factor) = (&self.sharpness[..count], &mut self.factor[..count]);
-        let (steps, before) = (&mut self.steps[..count], &mut self.before[..count]);
-        let moved = &mut self.moved[..count];
-        let mut going = 0;
-        for ray in 0..count {
-            let goes = (value[ray] >= base[ray] + slope[ray] * t[ray])
-                & (t[ray] < end[ray])
-                & (steps[ray] < pace.max_steps)
-                & (factor[ray] >= NEGLIGIBLE);
-            moved[ray] = goes;
-            let clearance = value[ray] * pace.scale;
-            let here = sharpness[ray] * clearance / t[ray];
-            let least = if here < factor[ray] { here } else { factor[ray] };
-            let ratio = least / sharpness[ray];
-            let safe = (clearance - t[ray] * ratio) / (1.0 + ratio);
-            let is_steady = here >= before[ray] * STEADY;
-            let short = if is_steady { clearance } else { clearance * SHORTEST_STEP };
-            let step = if safe > short { safe } else { short };
-            factor[ray] = if goes { least } else { factor[ray] };
-            before[ray] = if goes { here } else { before[ray] };
-            t[ray] += if goes { step * pace.step_factor } else { 0.0 };
-            steps[ray] += u32::from(goes);
-            going += u32::from(goes);
-        }
-        count - going as usize
+/// As [`advance_hard`], with the factor of the shadow.
+///
+/// The field being 1-Lipschitz after scaling, a step up to where clearance over distance could first fall below the least
+/// ratio so far misses no smaller one. Where that would be tiny, the step is a fixed part of the clearance instead; the
+/// whole of it if the ratio is steady, as it is on the way from a flat surface.
+#[inline(always)]
+fn advance_soft(bundle: &mut Bundle, start: usize, values: &[f32; LANES], pace: Pace) -> u32 {
+    let Bundle { enter, leave, base, growth, sharpness, factor, before, steps, value, .. } = bundle;
+    let (t, end) = (row_mut(enter, start), row(leave, start));
+    let (base, growth) = (row(base, start), row(growth, start));
+    let (sharpness, factor) = (row(sharpness, start), row_mut(factor, start));
+    let before = row_mut(before, start);
+    let steps: &mut [u32; LANES] = (&mut steps[start..start + LANES]).try_into().expect("a row");
+    *row_mut(value, start) = *values;
+    let mut going = 0;
+    for ray in 0..LANES {
+        let goes = (values[ray] >= base[ray] + growth[ray] * t[ray])
+            & (t[ray] < end[ray])
+            & (steps[ray] < pace.max_steps)
+            & (factor[ray] >= NEGLIGIBLE);
+        let clearance = values[ray] * pace.scale;
+        let here = sharpness[ray] * clearance / t[ray];
+        let least = if here < factor[ray] { here } else { factor[ray] };
+        let ratio = least / sharpness[ray];
+        let safe = (clearance - t[ray] * ratio) / (1.0 + ratio);
+        let is_steady = here >= before[ray] * STEADY;
+        let short = if is_steady { clearance } else { clearance * SHORTEST_STEP };
+        let step = if safe > short { safe } else { short };
+        factor[ray] = if goes { least } else { factor[ray] };
+        before[ray] = if goes { here } else { before[ray] };
+        t[ray] += if goes { step * pace.step_factor } else { 0.0 };
+        steps[ray] += u32::from(goes);
+        going += u32::from(goes);
     }
+    going
+}
 
-    /// Takes the rays that are done out of the buffers.
-    fn sweep(&mut self, ends: &mut Vec<End>, is_soft: bool) {
-        let mut kept = 0;
-        for ray in 0..self.count {
-            let (t, value, factor) = (self.t[ray], self.value[ray], self.factor[ray]);
-            let is_past = t >= self.end[ray] || factor < NEGLIGIBLE;
-            if self.moved[ray] && !is_past {
-                self.kept[kept] = ray as u32;
-                kept += 1;
-                continue;
-            }
-            let fate = if is_past {
+/// Notes the rays of some rows that did not come to the end of their stretch.
+fn collect(bundle: &mut Bundle, rows: Rows, place: u32, is_soft: bool) {
+    for start in rows.starts() {
+        let (t, end, factor) = (row(&bundle.enter, start), row(&bundle.leave, start), row(&bundle.factor, start));
+        let mut stopped = 0;
+        for lane in 0..LANES {
+            let is_dark = is_soft & (factor[lane] < NEGLIGIBLE);
+            let stops = (end[lane] > f32::NEG_INFINITY) & (is_dark | !(t[lane] >= end[lane]));
+            stopped |= u32::from(stops) << lane;
+        }
+        while stopped != 0 {
+            let ray = start + stopped.trailing_zeros() as usize;
+            stopped &= stopped - 1;
+            let (t, value) = (bundle.enter.0[ray], bundle.value.0[ray]);
+            let fate = if t >= bundle.leave.0[ray] || (is_soft && bundle.factor.0[ray] < NEGLIGIBLE) {
+                bundle.factor.0[ray] = 0.0;
                 Fate::Passed
-            } else if value < self.base[ray] + self.slope[ray] * t {
+            } else if value < bundle.base.0[ray] + bundle.growth.0[ray] * t {
                 Fate::Hit
             } else {
                 Fate::Exhausted
             };
-            let factor = if fate == Fate::Hit || factor < NEGLIGIBLE { 0.0 } else { factor };
-            let (id, steps, before) = (self.id[ray], self.steps[ray], self.before[ray]);
-            ends.push(End { id, fate, t, value, steps, factor, before, place: End::NOWHERE });
+            bundle.find(ray, fate, t, value, place);
         }
-        // Buffer by buffer, since each fits the first-level cache and all of them together do not.
-        let Self { id, steps, origin, direction, t, end, base, slope, .. } = self;
-        let places = &self.kept[..kept];
-        pack(id, places);
-        pack(steps, places);
-        for numbers in origin.iter_mut().chain(direction).chain([t, end, base, slope]) {
-            pack(numbers, places);
-        }
-        if is_soft {
-            for numbers in [&mut self.sharpness, &mut self.factor, &mut self.before] {
-                pack(numbers, places);
-            }
-        }
-        self.count = kept;
-    }
-}
-
-/// Moves the numbers at `places`, which rise, to the front.
-fn pack<T: Copy>(numbers: &mut [T], places: &[u32]) {
-    for (to, &from) in places.iter().enumerate() {
-        numbers[to] = numbers[from as usize];
     }
 }

@@ -5,10 +5,10 @@
 //! smallest boxes the rays that meet them march with the part of the program that matters there. What a ray ends with
 //! depends on nothing but the ray and the cells: not on its companions.
 
-use crate::march::{End, Fate, March, Pace, Start};
+use crate::bundle::{Bundle, Rows, SEAM, Shaft};
+use crate::march::{self, End, Pace, Start};
 use crate::search::Search;
-use crate::vector::Triple;
-use freikugel_field::simd::{self, Level};
+use crate::vector::{Triple, length};
 use freikugel_field::{Cell, Cells, Encloser, Evaluator, Occupancy, Splitter};
 
 /// A part with this many steps is not worth splitting further: the point and two primitives with their union.
@@ -17,12 +17,10 @@ const SMALL_PART: usize = 8;
 /// A box this many pixels wide, as seen from the camera, is not split further: fewer rays meet it than fill the lanes.
 const CELL_PIXELS: f32 = 24.0;
 
-/// Where a ray enters and leaves a box is known up to this part of the distances involved. Parts hold as much beyond their
-/// boxes.
-const SEAM: f32 = 4.0 * f32::EPSILON;
-
-/// Stands for the components of a direction that are 0, so that no product of 0 and infinity arises.
-const LEAST_COMPONENT: f32 = 1e-30;
+/// As [`SMALL_PART`], for parts with formulas, and as [`CELL_PIXELS`]: a model along a ray covers long stretches at once, so
+/// that large boxes are better unless they hold less of a long formula.
+const SMALL_FORMULA: usize = 96;
+const FORMULA_PIXELS: f32 = 96.0;
 
 /// What rays travel through.
 pub(crate) struct Space<'f> {
@@ -47,94 +45,36 @@ pub(crate) enum Quest {
 /// Rays to be traced together.
 #[derive(Default)]
 pub(crate) struct Packet<'f> {
-    /// By the signs of the directions.
-    bundles: [Bundle; 8],
+    /// By the signs of the directions. Those beyond the first `in_use` have no rays.
+    bundles: [Vec<Bundle>; 8],
+    in_use: [usize; 8],
     /// The cells in which something was met.
     pub(crate) places: Vec<&'f Cell>,
-    march: March,
     search: Search,
-    ends: Vec<End>,
-}
-
-/// Rays whose directions have the same signs, and what became of them so far.
-#[derive(Default)]
-struct Bundle {
-    starts: Vec<Start>,
-    states: Vec<State>,
-    /// The rays that meet the boxes on the way from the root to the one being visited; first all rays.
-    groups: Vec<Group>,
-    found: Vec<Found>,
-    met: Vec<Met>,
-}
-
-/// Some rays of a bundle.
-#[derive(Default)]
-struct Group {
-    /// Their places in the bundle.
-    ray: Vec<u32>,
-    origin: [Vec<f32>; 3],
-    inverse: [Vec<f32>; 3],
-    near: Vec<f32>,
-    /// Beyond this nothing can change a ray's fate any more.
-    far: Vec<f32>,
-    shaft: Shaft,
-    /// Where each ray enters and leaves the box tested last.
-    enter: Vec<f32>,
-    leave: Vec<f32>,
-    /// Which rays meet it.
-    meets: Vec<u32>,
-}
-
-/// What is known about a ray so far.
-#[derive(Clone, Copy)]
-struct State {
-    fate: Fate,
-    t: f32,
-    value: f32,
-    steps: u32,
-    factor: f32,
-    before: f32,
-    /// Which of the bundle's finds it is.
-    find: u32,
-}
-
-/// A surface that a ray met, or gave up before.
-#[derive(Clone, Copy)]
-struct Found {
-    ray: u32,
-    place: u32,
-}
-
-/// A ray that meets a box, and where.
-#[derive(Clone, Copy)]
-struct Met {
-    ray: u32,
-    span: [f32; 2],
-}
-
-/// Bounds of the rays of a group.
-#[derive(Clone, Copy, Default)]
-struct Shaft {
-    origin: [[f32; 2]; 3],
-    inverse: [[f32; 2]; 3],
-    near: f32,
-    far: f32,
 }
 
 impl<'f> Packet<'f> {
     /// Adds a ray.
     pub(crate) fn push(&mut self, start: &Start) {
         let sign = |axis: usize| usize::from(start.direction[axis] < 0.0) << axis;
-        self.bundles[sign(0) | sign(1) | sign(2)].push(start);
+        let octant = sign(0) | sign(1) | sign(2);
+        let (bundles, in_use) = (&mut self.bundles[octant], &mut self.in_use[octant]);
+        if *in_use == 0 || bundles[*in_use - 1].is_full() {
+            *in_use += 1;
+            if bundles.len() < *in_use {
+                bundles.push(Bundle::default());
+            }
+        }
+        bundles[*in_use - 1].push(start);
     }
 
     /// Whether there are no rays.
     pub(crate) fn is_empty(&self) -> bool {
-        self.bundles.iter().all(|bundle| bundle.starts.is_empty())
+        self.in_use.iter().all(|&count| count == 0)
     }
 
-    /// Takes all rays as far as they go. Appends how they ended; of those that met something, all that met it in one cell
-    /// stand together. Returns how many field values that took. The packet is empty afterwards.
+    /// Takes all rays as far as they go. Appends how they ended; of those that met something, all of a bundle that met it in
+    /// one cell stand together. Returns how many field values that took. The packet is empty afterwards.
     pub(crate) fn travel<'e>(
         &mut self,
         space: &Space<'f>,
@@ -145,137 +85,18 @@ impl<'f> Packet<'f> {
         ends: &mut Vec<End>,
     ) -> u64 {
         self.places.clear();
-        let Self { bundles, places, march, search, ends: own } = self;
-        let mut trip = Trip { space, quest, field, encloser, splitter, places, march, search, ends: own };
+        let Self { bundles, in_use, places, search } = self;
+        let mut trip = Trip { space, quest, field, encloser, splitter, places, search };
         let mut evaluations = 0;
-        for bundle in bundles.iter_mut().filter(|bundle| !bundle.starts.is_empty()) {
-            evaluations += trip.take(bundle);
-            bundle.finish(ends);
+        for (bundles, in_use) in bundles.iter_mut().zip(in_use) {
+            for bundle in &mut bundles[..*in_use] {
+                evaluations += trip.take(bundle);
+                bundle.finish(ends);
+            }
+            *in_use = 0;
         }
         evaluations
     }
-}
-
-impl Bundle {
-    fn push(&mut self, start: &Start) {
-        self.states.push(State {
-            fate: Fate::Passed,
-            t: start.span[1],
-            value: f32::INFINITY,
-            steps: start.steps,
-            factor: 1.0,
-            before: 0.0,
-            find: u32::MAX,
-        });
-        self.starts.push(*start);
-    }
-
-    /// Makes the group of all rays.
-    fn gather(&mut self) {
-        if self.groups.is_empty() {
-            self.groups.push(Group::default());
-        }
-        let group = &mut self.groups[0];
-        group.clear();
-        for (ray, start) in self.starts.iter().enumerate() {
-            group.ray.push(ray as u32);
-            for axis in 0..3 {
-                let d = start.direction[axis];
-                group.origin[axis].push(start.origin[axis]);
-                group.inverse[axis].push(1.0 / if d.abs() < LEAST_COMPONENT { LEAST_COMPONENT.copysign(d) } else { d });
-            }
-            let [near, far] = start.span;
-            group.near.push(near);
-            group.far.push(far);
-        }
-        group.shaft = Shaft::around(group);
-    }
-
-    /// Appends how all rays ended and forgets them.
-    fn finish(&mut self, ends: &mut Vec<End>) {
-        let end = |ray: usize, place: u32| {
-            let (start, state) = (&self.starts[ray], &self.states[ray]);
-            let State { fate, t, value, steps, factor, before, .. } = *state;
-            let factor = if fate == Fate::Hit { 0.0 } else { factor };
-            End { id: start.id, fate, t, value, steps, factor, before, place }
-        };
-        ends.extend(self.found.iter().map(|found| end(found.ray as usize, found.place)));
-        let nothing = (0..self.starts.len()).filter(|&ray| self.states[ray].find == u32::MAX);
-        ends.extend(nothing.map(|ray| end(ray, End::NOWHERE)));
-        self.starts.clear();
-        self.states.clear();
-        self.found.clear();
-    }
-}
-
-impl Group {
-    fn clear(&mut self) {
-        self.ray.clear();
-        for numbers in self.origin.iter_mut().chain(&mut self.inverse).chain([&mut self.near, &mut self.far]) {
-            numbers.clear();
-        }
-    }
-
-    /// Finds the rays that meet a box before their end, and where they enter and leave it.
-    fn meet(&mut self, level: Level, middle: Triple, half: Triple) {
-        let count = self.ray.len();
-        self.enter.resize(count, 0.0);
-        self.leave.resize(count, 0.0);
-        let Self { origin, inverse, near, far, enter, leave, .. } = self;
-        simd::with(
-            level,
-            #[inline(always)]
-            || {
-                enter.copy_from_slice(near);
-                leave.copy_from_slice(far);
-                for axis in 0..3 {
-                    let (origin, inverse) = (&origin[axis][..count], &inverse[axis][..count]);
-                    let (enter, leave) = (&mut enter[..count], &mut leave[..count]);
-                    let (middle, half) = (middle[axis], half[axis]);
-                    for ray in 0..count {
-                        let towards = (middle - origin[ray]) * inverse[ray];
-                        let reach = half * inverse[ray].abs();
-                        let (first, last) = (towards - reach, towards + reach);
-                        enter[ray] = if first > enter[ray] { first } else { enter[ray] };
-                        leave[ray] = if last < leave[ray] { last } else { leave[ray] };
-                    }
-                }
-                for ray in 0..count {
-                    let seam = SEAM * (enter[ray].abs() + leave[ray].abs());
-                    enter[ray] -= seam;
-                    leave[ray] += seam;
-                }
-            },
-        );
-        self.meets.clear();
-        self.meets.extend((0..count as u32).filter(|&ray| self.enter[ray as usize] <= self.leave[ray as usize]));
-    }
-
-    /// Lets rays that met something go no farther.
-    fn stop(&mut self, states: &[State]) {
-        for (far, &ray) in self.far.iter_mut().zip(&self.ray) {
-            if states[ray as usize].find != u32::MAX {
-                *far = f32::NEG_INFINITY;
-            }
-        }
-    }
-
-    /// The rays of `from` that meet the box that those were tested with last.
-    fn take(&mut self, from: &Self) {
-        self.clear();
-        self.ray.extend(from.meets.iter().map(|&ray| from.ray[ray as usize]));
-        for axis in 0..3 {
-            pick(&mut self.origin[axis], &from.origin[axis], &from.meets);
-            pick(&mut self.inverse[axis], &from.inverse[axis], &from.meets);
-        }
-        pick(&mut self.near, &from.near, &from.meets);
-        pick(&mut self.far, &from.far, &from.meets);
-        self.shaft = Shaft::around(self);
-    }
-}
-
-fn pick(to: &mut Vec<f32>, from: &[f32], places: &[u32]) {
-    to.extend(places.iter().map(|&place| from[place as usize]));
 }
 
 /// A packet on its way.
@@ -286,49 +107,59 @@ struct Trip<'a, 'f, 'e> {
     encloser: &'a mut Encloser<'e>,
     splitter: &'a mut Splitter,
     places: &'a mut Vec<&'f Cell>,
-    march: &'a mut March,
     search: &'a mut Search,
-    ends: &'a mut Vec<End>,
 }
 
 impl<'f> Trip<'_, 'f, '_> {
     fn take(&mut self, bundle: &mut Bundle) -> u64 {
-        bundle.gather();
+        let shaft = bundle.set_out(self.field.level());
         let root = self.space.cells.root();
         // What lies outside all cells can still dim a soft shadow.
-        let mut evaluations = self.march_outside(bundle, root, |[near, _], [enter, _]| [near, enter]);
-        evaluations += self.visit(bundle, root, 0);
-        evaluations + self.march_outside(bundle, root, |[_, far], [_, leave]| [leave, far])
+        let mut evaluations = self.march_outside(bundle, root, false);
+        evaluations += self.visit(bundle, &shaft, root);
+        evaluations + self.march_outside(bundle, root, true)
     }
 
-    /// Visits a box with the group at `depth`, of which some rays may meet it.
-    fn visit(&mut self, bundle: &mut Bundle, cell: &'f Cell, depth: usize) -> u64 {
-        let group = &mut bundle.groups[depth];
-        group.meet(self.field.level(), cell.middle(), cell.half());
-        if group.meets.is_empty() {
+    /// Visits a box that some rays may meet.
+    fn visit(&mut self, bundle: &mut Bundle, shaft: &Shaft, cell: &'f Cell) -> u64 {
+        if bundle.is_done() {
             return 0;
         }
         if self.is_small(cell) {
-            return self.march_through(bundle, cell, depth);
+            let rows = bundle.meet(self.field.level(), cell.middle(), cell.half());
+            return self.cross(bundle, rows, cell);
         }
-        if bundle.groups.len() == depth + 1 {
-            bundle.groups.push(Group::default());
-        }
-        let [.., from, group] = &mut bundle.groups[..depth + 2] else { unreachable!("two groups") };
-        group.take(from);
         let children = self.space.cells.children(cell, self.splitter);
         let side = (1..).find(|n| n * n * n >= children.len()).expect("a cube of boxes");
-        let ahead = [0, 1, 2].map(|axis| group.shaft.rises(axis));
+        let strides = [1, side, side * side];
+        // Along each axis the slabs that the boxes lie in, from front to back.
+        let mut slabs = [[(0, [0.0; 2]); MOST_SLABS]; 3];
+        for (axis, slabs) in slabs.iter_mut().enumerate() {
+            for (place, slab) in slabs[..side].iter_mut().enumerate() {
+                let index = if shaft.rises(axis) { place } else { side - 1 - place };
+                let child = &children[index * strides[axis]];
+                *slab = (index * strides[axis], shaft.slab(axis, child.middle()[axis], child.half()[axis]));
+            }
+        }
+        let meet = |[near, far]: [f32; 2], [first, last]: [f32; 2]| [near.max(first), far.min(last)];
+        let is_open = |[near, far]: [f32; 2]| near <= far + SEAM * (near.abs() + far.abs());
         let mut evaluations = 0;
-        for place in 0..children.len() {
-            let index = [place % side, place / side % side, place / (side * side)];
-            let child = (0..3)
-                .rev()
-                .fold(0, |child, axis| child * side + if ahead[axis] { index[axis] } else { side - 1 - index[axis] });
-            let child = &children[child];
-            let shaft = &bundle.groups[depth + 1].shaft;
-            if !self.is_of_no_interest(child) && shaft.meets(child.middle(), child.half()) {
-                evaluations += self.visit(bundle, child, depth + 1);
+        for &(z, slab) in &slabs[2][..side] {
+            let span = meet([shaft.near, shaft.far], slab);
+            if !is_open(span) {
+                continue;
+            }
+            for &(y, slab) in &slabs[1][..side] {
+                let span = meet(span, slab);
+                if !is_open(span) {
+                    continue;
+                }
+                for &(x, slab) in &slabs[0][..side] {
+                    let child = &children[x + y + z];
+                    if is_open(meet(span, slab)) && !self.is_of_no_interest(child) {
+                        evaluations += self.visit(bundle, shaft, child);
+                    }
+                }
             }
         }
         evaluations
@@ -340,156 +171,51 @@ impl<'f> Trip<'_, 'f, '_> {
 
     fn is_small(&self, cell: &Cell) -> bool {
         let part = cell.part();
-        if cell.occupancy() != Occupancy::Surface || (part.size() <= SMALL_PART && part.is_measured()) {
+        if cell.occupancy() != Occupancy::Surface || part.size() <= if part.is_measured() { SMALL_PART } else { *SP } {
             return true;
         }
         let (middle, half, eye) = (cell.middle(), cell.half(), self.space.eye);
         let gap = |axis: usize| ((middle[axis] - eye[axis]).abs() - half[axis]).max(0.0);
-        let distance = crate::vector::length([gap(0), gap(1), gap(2)]);
+        let distance = length([gap(0), gap(1), gap(2)]);
         let [fixed, growth] = self.space.pixel;
-        2.0 * half[0].max(half[1]).max(half[2]) <= CELL_PIXELS * (fixed + growth * distance)
+        2.0 * half[0].max(half[1]).max(half[2]) <= pixels * (fixed + growth * distance)
     }
 
-    /// Lets rays march on the stretches of them that lie outside the region of all cells. `stretch` picks one from where a
-    /// ray begins and ends and where it meets the region.
-    fn march_outside(
-        &mut self,
-        bundle: &mut Bundle,
-        root: &'f Cell,
-        stretch: impl Fn([f32; 2], [f32; 2]) -> [f32; 2],
-    ) -> u64 {
+    /// Lets rays march on the stretches of them that lie outside the region of all cells, before or behind it.
+    fn march_outside(&mut self, bundle: &mut Bundle, root: &'f Cell, is_behind: bool) -> u64 {
         if self.quest != Quest::Least {
             return 0;
         }
-        let group = &mut bundle.groups[0];
-        group.meet(self.field.level(), root.middle(), root.half());
-        bundle.met.clear();
-        for ray in 0..group.ray.len() {
-            let (near, far) = (group.near[ray], group.far[ray]);
-            let (enter, leave) = (group.enter[ray].max(near), group.leave[ray].min(far));
-            let inside = if enter <= leave { [enter, leave] } else { [far, far] };
-            let span = stretch([near, far], inside);
-            if span[0] < span[1] {
-                bundle.met.push(Met { ray: group.ray[ray], span });
-            }
-        }
-        self.march_met(bundle, root)
+        bundle.meet(self.field.level(), root.middle(), root.half());
+        let rows = bundle.outside(is_behind);
+        self.cross(bundle, rows, root)
     }
 
-    /// Lets the rays of a group that meet a cell march through it.
-    fn march_through(&mut self, bundle: &mut Bundle, cell: &'f Cell, depth: usize) -> u64 {
-        let group = &bundle.groups[depth];
-        bundle.met.clear();
-        bundle.met.extend(group.meets.iter().map(|&place| {
-            let place = place as usize;
-            let span = [group.enter[place].max(group.near[place]), group.leave[place].min(group.far[place])];
-            Met { ray: group.ray[place], span }
-        }));
-        let finds = bundle.found.len();
-        let evaluations = self.march_met(bundle, cell);
-        if bundle.found.len() > finds {
-            for group in &mut bundle.groups[..=depth] {
-                group.stop(&bundle.states);
-            }
+    /// Takes the rays of some rows along their stretches, on which the part of `cell` holds.
+    fn cross(&mut self, bundle: &mut Bundle, mut rows: Rows, cell: &'f Cell) -> u64 {
+        if rows.is_empty() {
+            return 0;
         }
-        evaluations
-    }
-
-    /// Lets the rays in `bundle.met` march where the part of `cell` holds.
-    fn march_met(&mut self, bundle: &mut Bundle, cell: &'f Cell) -> u64 {
-        let is_measured = cell.part().is_measured();
-        // Without a scale there is no clearance: a surface dims all or nothing.
-        let is_soft = self.quest == Quest::Least && is_measured;
-        for &Met { ray, span } in &bundle.met {
-            let (start, state) = (&bundle.starts[ray as usize], &bundle.states[ray as usize]);
-            if let (true, Occupancy::Outside(clearance)) = (is_soft, cell.occupancy())
-                && clearance * self.space.pace.scale * start.sharpness >= state.factor * span[1]
-            {
-                continue;
-            }
-            let start = Start { id: ray, span, steps: state.steps, ..*start };
-            match is_measured {
-                true => self.march.push(&start, [state.factor, state.before]),
-                false => self.search.push(&start),
-            }
-        }
-        self.ends.clear();
-        let evaluations = match is_soft {
-            _ if !is_measured => self.search.run(self.encloser, cell.part(), self.space.pace, self.ends),
-            false => self.march.hard(self.field, cell.part(), self.space.pace, self.ends),
-            true => self.march.soft(self.field, cell.part(), self.space.pace, self.ends),
-        };
+        let (part, pace) = (cell.part(), self.space.pace);
         let place = self.places.len() as u32;
-        let finds = bundle.found.len();
-        for end in &*self.ends {
-            let state = &mut bundle.states[end.id as usize];
-            state.steps = end.steps;
-            if is_soft {
-                (state.factor, state.before) = (end.factor, end.before);
+        let finds = bundle.finds();
+        let evaluations = if !part.is_measured() {
+            // Without a scale there is no clearance: a surface dims all or nothing.
+            self.search.cross(bundle, rows, self.encloser, part, pace, place)
+        } else if self.quest == Quest::Least {
+            if let Occupancy::Outside(clearance) = cell.occupancy() {
+                rows = bundle.undimmed(clearance * pace.scale);
             }
-            if end.fate == Fate::Passed && end.factor > 0.0 {
-                continue;
-            }
-            (state.fate, state.t, state.value) = (end.fate, end.t, end.value);
-            state.find = bundle.found.len() as u32;
-            bundle.found.push(Found { ray: end.id, place });
-        }
-        if bundle.found.len() > finds {
+            march::soft(bundle, rows, self.field, part, pace, place)
+        } else {
+            march::hard(bundle, rows, self.field, part, pace, place)
+        };
+        if bundle.finds() > finds {
             self.places.push(cell);
         }
         evaluations
     }
 }
 
-impl Shaft {
-    fn around(group: &Group) -> Self {
-        Self {
-            origin: group.origin.each_ref().map(|numbers| bounds(numbers)),
-            inverse: group.inverse.each_ref().map(|numbers| bounds(numbers)),
-            near: bounds(&group.near)[0],
-            far: bounds(&group.far)[1],
-        }
-    }
-
-    /// Whether the rays go upwards along an axis.
-    fn rises(&self, axis: usize) -> bool {
-        self.inverse[axis][0] > 0.0
-    }
-
-    /// Whether a box may be met: where the times at which some ray enters and leaves the slabs of the box leave no gap.
-    fn meets(&self, middle: Triple, half: Triple) -> bool {
-        let (mut near, mut far) = (self.near, self.far);
-        for axis in 0..3 {
-            let ([first, last], [slow, fast]) = (self.origin[axis], self.inverse[axis]);
-            // All rays go the same way; towards rising coordinates after mirroring.
-            let (lo, hi, least, most) = if slow > 0.0 {
-                (middle[axis] - half[axis] - last, middle[axis] + half[axis] - first, slow, fast)
-            } else {
-                (first - middle[axis] - half[axis], last - middle[axis] + half[axis], -fast, -slow)
-            };
-            near = near.max(lo * if lo > 0.0 { least } else { most });
-            far = far.min(hi * if hi > 0.0 { most } else { least });
-        }
-        near <= far + SEAM * (near.abs() + far.abs())
-    }
-}
-
-/// The least and the largest of some numbers.
-fn bounds(numbers: &[f32]) -> [f32; 2] {
-    const LANES: usize = 8;
-    let (mut lo, mut hi) = ([f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
-    let mut chunks = numbers.chunks_exact(LANES);
-    let mut widen = |lane: usize, x: f32| {
-        lo[lane] = if x < lo[lane] { x } else { lo[lane] };
-        hi[lane] = if x > hi[lane] { x } else { hi[lane] };
-    };
-    for chunk in &mut chunks {
-        for (lane, &x) in chunk.iter().enumerate() {
-            widen(lane, x);
-        }
-    }
-    for &x in chunks.remainder() {
-        widen(0, x);
-    }
-    [lo.into_iter().fold(f32::INFINITY, f32::min), hi.into_iter().fold(f32::NEG_INFINITY, f32::max)]
-}
+/// The most boxes side by side that one is split into.
+const MOST_SLABS: usize = freikugel_field::cells::SPLIT;

@@ -129,8 +129,8 @@ impl<'s> Renderer<'s> {
                 };
                 exact.push(Exact { ray, paint, structure });
             } else if analysis.extent != Extent::Empty {
-                // What has no scale is searched by intervals instead.
-                scale = scale.min(safe_scale(&analysis.contract).unwrap_or(f64::INFINITY));
+                // What has no scale is searched by intervals instead; distances that it is cut with have slope 1.
+                scale = scale.min(safe_scale(&analysis.contract).unwrap_or(1.0));
                 bounds = hull(bounds, analysis.extent);
                 marched.push(index);
             }

@@ -11,7 +11,7 @@ use crate::options::{Options, Rect};
 use crate::run::{Progress, RenderError, Rendered};
 use crate::stats::Stats;
 use freikugel_field::simd::{self, Level};
-use freikugel_field::{Evaluator, Occupancy, Part, Points, Program, Splitter};
+use freikugel_field::{Evaluator, Occupancy, Part, Points, Program, Splitter, Wanted};
 use glam::DVec3;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -65,7 +65,7 @@ impl Section {
         let grid = Grid::new(self, program, [options.width, options.height]);
         let mut mask = filled(region, false)?;
         let threads = Threads { options, progress };
-        grid.in_tiles(region, threads, 1, Wanted::Sign, &mut mask, |piece, out| match piece {
+        grid.in_tiles(region, threads, 1, Wanted::Surface, &mut mask, |piece, out| match piece {
             Piece::Filled(rect, is_inside) => out.rows(rect).for_each(|row| row.fill(is_inside)),
             Piece::Values(rect, values) => {
                 for (row, values) in out.rows(rect).zip(values.chunks(rect.width as usize)) {
@@ -117,14 +117,15 @@ impl Section {
         let grid = Grid::new(self, program, [options.width * fine, options.height * fine]);
         let mut inside = filled(region, 0_u32)?;
         let threads = Threads { options, progress };
-        let mut stats = grid.in_tiles(region, threads, fine, Wanted::Sign, &mut inside, |piece, out| match piece {
-            Piece::Filled(_, false) => {}
-            Piece::Filled(rect, true) if fine == 1 => out.rows(rect).for_each(|row| row.fill(1)),
-            Piece::Filled(rect, true) => each(rect, |x, y, _| *out.at(x / fine, y / fine) += 1),
-            Piece::Values(rect, values) => {
-                each(rect, |x, y, index| *out.at(x / fine, y / fine) += u32::from(values[index] < 0.0));
-            }
-        })?;
+        let mut stats =
+            grid.in_tiles(region, threads, fine, Wanted::Surface, &mut inside, |piece, out| match piece {
+                Piece::Filled(_, false) => {}
+                Piece::Filled(rect, true) if fine == 1 => out.rows(rect).for_each(|row| row.fill(1)),
+                Piece::Filled(rect, true) => each(rect, |x, y, _| *out.at(x / fine, y / fine) += 1),
+                Piece::Values(rect, values) => {
+                    each(rect, |x, y, index| *out.at(x / fine, y / fine) += u32::from(values[index] < 0.0));
+                }
+            })?;
         let share = 1.0 / (fine * fine) as f32;
         let [dark, light] = colors;
         let mixed = |count: u32| -> [f32; 3] {
@@ -158,13 +159,6 @@ fn filled<T: Clone>(region: Rect, value: T) -> Result<Vec<T>, RenderError> {
     pixels.try_reserve_exact(count).map_err(|_| RenderError::Memory)?;
     pixels.resize(count, value);
     Ok(pixels)
-}
-
-/// What is to be found out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Wanted {
-    Sign,
-    Values,
 }
 
 /// What is known about some points of the grid.
@@ -332,9 +326,9 @@ impl<'p> Grid<'p> {
         let [x, y, z] = &self.middles(corners, side);
         let mut surveyed = splitter.survey(self.program, part, [x, y, z], self.half(side));
         known.extend((0..corners.len()).map(|place| match (wanted, surveyed.occupancy(place)) {
-            (Wanted::Sign, Occupancy::Inside) => Known::Filled(true),
-            (Wanted::Sign, Occupancy::Outside(_)) => Known::Filled(false),
-            _ => Known::Part(surveyed.part(place)),
+            (Wanted::Surface, Occupancy::Inside) => Known::Filled(true),
+            (Wanted::Surface, Occupancy::Outside(_)) => Known::Filled(false),
+            _ => Known::Part(surveyed.part(place, wanted)),
         }));
     }
 }

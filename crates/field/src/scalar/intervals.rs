@@ -35,6 +35,20 @@ pub struct LaneTrilean<M> {
     can_fail: M,
 }
 
+impl<M: Copy + BitAnd<Output = M> + Not<Output = M>> LaneTrilean<M> {
+    /// Where it can hold as well as fail.
+    #[inline(always)]
+    pub(crate) fn is_open(self) -> M {
+        self.can_hold & self.can_fail
+    }
+
+    /// Where it holds whatever the numbers are.
+    #[inline(always)]
+    pub(crate) fn holds(self) -> M {
+        !self.can_fail
+    }
+}
+
 impl<I: Simd> Intervals<I> {
     /// The intervals that hold one number each.
     #[inline(always)]

@@ -35,6 +35,8 @@ impl Primitive for Cuboid {
         example: r#"{ "box": { "size": [1.6, 1.2, 0.8], "round": 0.1 } }"#,
     };
 
+    const MODELS: Option<PrimitiveKernel> = Some(primitive_models::<Self>);
+
     fn check(args: &[f64]) -> Result<(), String> {
         let &[x, y, z, round] = args else { unreachable!("four numbers") };
         if round > x.min(y).min(z) / 2.0 {

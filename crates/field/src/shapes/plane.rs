@@ -58,6 +58,8 @@ impl Primitive for Plane {
         example: r#"{ "intersection": [ { "sphere": { "radius": 1 } }, { "plane": { "normal": [1, 0, 2], "offset": 0.2 } } ] }"#,
     };
 
+    const MODELS: Option<PrimitiveKernel> = Some(primitive_models::<Self>);
+
     fn exact_form(args: &[f64]) -> Option<ExactForm> {
         Some(ExactForm::HalfSpace { normal: DVec3::from_slice(args).normalize(), offset: args[3] })
     }

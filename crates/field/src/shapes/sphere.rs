@@ -24,6 +24,8 @@ impl Primitive for Sphere {
         example: r#"{ "sphere": { "radius": 1 } }"#,
     };
 
+    const MODELS: Option<PrimitiveKernel> = Some(primitive_models::<Self>);
+
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
         (args[0] + level) * direction.length()
     }
