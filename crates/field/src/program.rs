@@ -11,6 +11,7 @@ use crate::kernel::{CombineFn, CombineKernels, Dual2, ModifyFn, ModifyKernels, P
 use crate::lower::Listing;
 use crate::operation::{Code, Derive, NO_REGION, Run, Step, StepId, Steps, inverse_of};
 use crate::scalar::{Constants, Dual, Interval, Scalar};
+use crate::spine::Spine;
 use crate::vector::{Vec3, spectral_norm};
 use glam::DVec3;
 use std::sync::{Arc, OnceLock};
@@ -80,7 +81,7 @@ impl Program {
     }
 
     /// All of its steps.
-    pub fn whole(&self) -> &Part {
+    pub fn whole(&self) -> &Arc<Part> {
         &self.whole
     }
 
@@ -227,6 +228,7 @@ pub struct Part {
     kept: OnceLock<Listing>,
     zeros: OnceLock<Zeros>,
     regions: OnceLock<Vec<u32>>,
+    spine: OnceLock<Option<Spine>>,
 }
 
 impl Part {
@@ -245,6 +247,7 @@ impl Part {
             kept: OnceLock::new(),
             zeros: OnceLock::new(),
             regions: OnceLock::new(),
+            spine: OnceLock::new(),
         }
     }
 
@@ -286,6 +289,11 @@ impl Part {
     /// The operations that keep every intermediate value.
     pub(crate) fn kept(&self) -> &Listing {
         self.kept.get_or_init(|| Listing::keeping_all(&self.steps))
+    }
+
+    /// The chain of minima that it ends with, if that is a long one.
+    pub(crate) fn spine(&self) -> Option<&Spine> {
+        self.spine.get_or_init(|| Spine::of(&self.steps)).as_ref()
     }
 
     /// What the surface is made of, if that is known to be the zeros of simpler fields.
