@@ -72,7 +72,6 @@ impl Primitive for QuaternionJulia {
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         match (c.count() - LEADING) as u32 {
             2 => orbit(2, p, c),
-            3 => orbit(3, p, c),
             power => orbit(power, p, c),
         }
     }

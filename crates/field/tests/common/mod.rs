@@ -266,7 +266,7 @@ pub(crate) fn mandelbulb_contains(args: &[f64], p: DVec3) -> bool {
 
 /// The least r with r^k - c >= r beyond it.
 fn escape_radius(power: f64, c: f64) -> f64 {
-    let (mut low, mut high) = (1.0, 4.0);
+    let (mut low, mut high) = (1.0_f64, 4.0_f64);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if middle.powf(power) - c < middle {
