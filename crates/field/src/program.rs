@@ -218,6 +218,7 @@ impl Program {
 pub struct Part {
     pub(crate) steps: Steps,
     is_measured: bool,
+    is_loose: bool,
     listing: OnceLock<Listing>,
     one_by_one: OnceLock<Listing>,
     kept: OnceLock<Listing>,
@@ -228,9 +229,11 @@ impl Part {
     pub(crate) fn new(steps: Steps) -> Self {
         let one_by_one = OnceLock::new();
         let is_measured = !steps.list.iter().any(|step| matches!(step, Step::Surface { .. }));
+        let is_loose = steps.list.iter().any(|step| matches!(step, Step::Primitive { table, .. } if table.is_loose));
         Self {
             steps,
             is_measured,
+            is_loose,
             listing: OnceLock::new(),
             one_by_one,
             kept: OnceLock::new(),
@@ -241,6 +244,11 @@ impl Part {
     /// Whether all values in it are distances or bounds of them up to a factor, so that rays can march by them.
     pub fn is_measured(&self) -> bool {
         self.is_measured
+    }
+
+    /// Whether some of its values are much smaller than distances, so that rays gain by relaxed steps.
+    pub fn is_loose(&self) -> bool {
+        self.is_loose
     }
 
     /// How many steps there are.

@@ -172,6 +172,10 @@ pub trait Primitive: 'static {
     /// Description and parameters.
     const ABOUT: About;
 
+    /// Whether its values are much smaller than the distance almost everywhere, so that rays do well to step farther and
+    /// to make sure afterwards that they missed nothing.
+    const IS_LOOSE: bool = false;
+
     /// A fault that no single parameter shows, as a sentence.
     ///
     /// # Errors
@@ -363,6 +367,7 @@ pub enum Kind {
 #[derive(Debug)]
 #[allow(missing_docs, reason = "documented at the trait's items of the same names")]
 pub struct PrimitiveTable {
+    pub is_loose: bool,
     pub check: fn(&[f64]) -> Result<(), String>,
     pub prepare: fn(&[f64]) -> Vec<f64>,
     pub contract: fn(&[f64]) -> Contract,
@@ -423,6 +428,7 @@ impl Shape {
         Self {
             about: P::ABOUT,
             kind: Kind::Primitive(PrimitiveTable {
+                is_loose: P::IS_LOOSE,
                 check: P::check,
                 prepare: P::prepare,
                 contract: P::contract,

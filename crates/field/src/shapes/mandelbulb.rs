@@ -48,6 +48,8 @@ impl Primitive for Mandelbulb {
         example: r#"{ "mandelbulb": { "power": 8 } }"#,
     };
 
+    const IS_LOOSE: bool = true;
+
     fn prepare(args: &[f64]) -> Vec<f64> {
         let mut constants = vec![args[1]];
         constants.extend(radii(args).constants());

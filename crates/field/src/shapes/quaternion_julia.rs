@@ -50,6 +50,8 @@ impl Primitive for QuaternionJulia {
         example: r#"{ "quaternion_julia": { "c": [-0.2, 0.6, 0.2, 0.2] } }"#,
     };
 
+    const IS_LOOSE: bool = true;
+
     fn prepare(args: &[f64]) -> Vec<f64> {
         let (c, k, w) = (&args[..4], args[4], args[7]);
         let mut constants = vec![c[0], c[1], c[2], c[3], w, args[5]];
