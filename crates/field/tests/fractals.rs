@@ -56,7 +56,7 @@ fn program(field: &Field) -> Program {
 
 /// Points far away, at middle distance, and ever nearer to the surface on either side, by bisection.
 fn points(field: &Field, random: &mut Random) -> Vec<DVec3> {
-    let mut points: Vec<DVec3> = (0..60).map(|_| random.point(2.0)).chain((0..10).map(|_| random.point(9.0))).collect();
+    let mut points: Vec<DVec3> = (0..70).map(|i| random.point(if i < 60 { 2.0 } else { 9.0 })).collect();
     let mut inside: Vec<DVec3> = (0..3000).map(|_| random.point(1.5)).filter(|&p| contains(field, p)).take(8).collect();
     inside.push(DVec3::ZERO);
     for mut near in inside.into_iter().filter(|&p| contains(field, p)) {

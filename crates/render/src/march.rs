@@ -290,10 +290,10 @@ impl March {
                     for (to, new) in [&mut *t, free, stride].into_iter().zip(&new) {
                         to[places.clone()].copy_from_slice(new);
                     }
-                    for (ray, moved) in moved[places].iter_mut().enumerate() {
-                        *moved = goes[ray] != 0;
-                        going += if first + ray < *count { goes[ray] } else { 0 };
-                    }
+                    moved[places].copy_from_slice(&goes.map(|goes| goes != 0));
+                    going += goes.iter().sum::<u32>();
+                    let unused = &goes[CHUNK.min(*count - first)..];
+                    going -= unused.iter().sum::<u32>();
                 }
             },
         );

@@ -2,8 +2,8 @@
 //!
 //! An orbit z_0, z_1, ... starts at a point and follows z_(n+1) = z_n^k + c. The shape is the set of points with
 //! |z_N| <= B, for N iterations and the bailout B. Two things are needed of it. Thresholds T_n: whoever has |z_n| > T_n has
-//! |z_N| > B; with |c| <= C they are T_N = B and T_n = (T_(n+1) + C)^(1/k), and here all but the last are replaced by
-//! T = T_(N-1), the largest of them. And a majorant D_n of the stretch |dz_n/dp| that does not change too fast itself:
+//! |z_N| > B; with |c| <= C they are T_N = B and T_n = (T_(n+1) + C)^(1/k). They fall quickly to the least bailout; here the last few before N
+//! are replaced by T_(N-1), and all before those by one T as well. And a majorant D_n of the stretch |dz_n/dp| that does not change too fast itself:
 //!
 //! - D_0 = 1, D_(n+1) = D_n L_n, where L_n is at least the stretch of z^k at z_n, and |grad ln L_n| <= 2 λ |dz_n/dp|;
 //! - E_0 = 0, E_(n+1) = E_n + λ D_n.
@@ -19,7 +19,7 @@
 //! again with a slope of at most 1, hence a bound on both sides.
 //!
 //! Once |z_n| is above a radius S, no later step gives a larger value, and the loop ends: 1/v_n falls short of
-//! 1/v_(n+1) >= D_n k |z_n|^(k-1) / (2 B) + E_n + λ D_n from where (a^2 + 3 T^2) / (2 T (a^2 - T^2)) <= k a^(k-1) / (2 B) + λ.
+//! 1/v_(n+1) >= D_n k |z_n|^(k-1) / (2 B) + E_n + λ D_n from where (a^2 + 3 T^2) / (2 T (a^2 - T^2)) <= k a^(k-1) / (2 B) + λ for either T.
 //!
 //! The classical estimate |z_n| ln |z_n| / |dz_n/dp| (Hart, Sandin, Kauffman, "Ray Tracing Deterministic 3-D Fractals", 1989)
 //! is about three times as large and promises nothing.
@@ -65,6 +65,10 @@ const STEEPEST: f64 = 1e15;
 /// ones D; in the tests' scenes the bound is largest about here.
 pub(crate) const FLOOR: f64 = 0.65;
 
+/// How many steps before the last one have a threshold of their own. A step brings a threshold nearer to the least one by the
+/// power or more.
+const LATE: u32 = 3;
+
 /// Halvings that exhaust double precision.
 const HALVINGS: u32 = 100;
 
@@ -73,8 +77,10 @@ const HALVINGS: u32 = 100;
 pub(crate) struct Radii {
     /// T_0: the shape lies in the ball of this radius.
     pub(crate) extent: f64,
-    /// T.
-    inner: f64,
+    /// T of the last steps, and of all before those.
+    inner: [f64; 2],
+    /// How many steps come before the last ones; below 0 if none do.
+    early: f64,
     /// B.
     outer: f64,
     /// S.
@@ -94,26 +100,32 @@ impl Radii {
     ) -> Self {
         let outer = bailout.max(escape_radius(power, reach));
         let before = |radius: f64| (radius + reach).powf(1.0 / power);
-        let inner = before(outer);
+        let late = before(outer);
+        let inner = [late, (0..LATE).fold(late, |radius, _| before(radius))];
         let first = (0..iterations as u32).fold(outer, |radius, _| before(radius));
-        let suffices = |a: f64| {
+        // With larger radii the first side falls and the second one rises.
+        let suffices = |inner: f64, a: f64| {
             let (square, least) = (a * a, inner * inner);
             (square + 3.0 * least) / (2.0 * inner * (square - least))
                 <= power * a.powf(power - 1.0) / (2.0 * outer) + lambda
         };
-        // From the left to the right the first side falls and the second one rises.
-        let stop = least_with(inner, suffices);
-        Self { extent: extent.unwrap_or(first), inner, outer, stop, lambda }
+        let [late, early] = inner.map(|inner| least_with(inner, |a| suffices(inner, a)));
+        let (stop, steps) = (late.max(early), iterations - f64::from(LATE));
+        Self { extent: extent.unwrap_or(first), inner, early: steps, outer, stop, lambda }
     }
 
     /// What [`Escape::read`] reads.
     pub(crate) fn constants(&self) -> [f64; Escape::<f64>::COUNT] {
-        let Self { extent, inner, outer, stop, lambda } = *self;
+        let Self { extent, inner: [late, early], early: steps, outer, stop, lambda } = *self;
         [
             extent,
-            inner * inner,
-            2.0 * inner / lambda,
-            1.0 / (2.0 * inner * lambda),
+            late * late,
+            2.0 * late / lambda,
+            1.0 / (2.0 * late * lambda),
+            early * early,
+            2.0 * early / lambda,
+            1.0 / (2.0 * early * lambda),
+            steps,
             stop * stop,
             outer * outer,
             2.0 * outer,
@@ -144,13 +156,28 @@ pub(crate) fn least_with(low: f64, has: impl Fn(f64) -> bool) -> f64 {
     high
 }
 
+/// A threshold g: its square, and 2 g / λ and 1 / (2 g λ).
+#[derive(Clone, Copy)]
+struct Threshold<S> {
+    square: S,
+    gap: S,
+    rest: S,
+}
+
+impl<S: Scalar> Threshold<S> {
+    #[inline(always)]
+    fn read(c: &Constants<'_, S>, first: usize) -> Self {
+        Self { square: c.at(first), gap: c.at(first + 1), rest: c.at(first + 2) }
+    }
+}
+
 /// The same as constants of a formula, and what is done with them. Everywhere λ D stands for D.
 #[derive(Clone, Copy)]
 pub(crate) struct Escape<S> {
     extent: S,
-    inner_square: S,
-    inner_gap: S,
-    inner_rest: S,
+    late: Threshold<S>,
+    early: Threshold<S>,
+    early_steps: S,
     stop_square: S,
     outer_square: S,
     outer_gap: S,
@@ -163,23 +190,23 @@ pub(crate) struct Escape<S> {
 
 impl<S: Scalar> Escape<S> {
     /// How many constants it takes.
-    pub(crate) const COUNT: usize = 11;
+    pub(crate) const COUNT: usize = 15;
 
     /// From the constants that begin at `first`.
     #[inline(always)]
     pub(crate) fn read(c: &Constants<'_, S>, first: usize) -> Self {
         Self {
             extent: c.at(first),
-            inner_square: c.at(first + 1),
-            inner_gap: c.at(first + 2),
-            inner_rest: c.at(first + 3),
-            stop_square: c.at(first + 4),
-            outer_square: c.at(first + 5),
-            outer_gap: c.at(first + 6),
-            outer_rest: c.at(first + 7),
-            lambda: c.at(first + 8),
-            inverse_lambda: c.at(first + 9),
-            steepest: c.at(first + 10),
+            late: Threshold::read(c, first + 1),
+            early: Threshold::read(c, first + 4),
+            early_steps: c.at(first + 7),
+            stop_square: c.at(first + 8),
+            outer_square: c.at(first + 9),
+            outer_gap: c.at(first + 10),
+            outer_rest: c.at(first + 11),
+            lambda: c.at(first + 12),
+            inverse_lambda: c.at(first + 13),
+            steepest: c.at(first + 14),
         }
     }
 
@@ -191,10 +218,17 @@ impl<S: Scalar> Escape<S> {
 
     /// The lesser of `inverse` and 1/v_n, for the squared length of z_n.
     #[inline(always)]
-    pub(crate) fn sooner(&self, inverse: S, square: S, stretch: S, sum: S) -> S {
-        let excess = square - self.inner_square;
-        let own = stretch * (self.inner_rest + self.inner_gap / excess) + sum;
-        S::select(excess.lift(0.0).lt(excess), own, self.never()).min(inverse)
+    pub(crate) fn sooner(&self, inverse: S, n: S, square: S, stretch: S, sum: S) -> S {
+        let is_early = n.lt(self.early_steps);
+        let excess = square - S::select(is_early, self.early.square, self.late.square);
+        let is_outside = excess.lift(0.0).lt(excess);
+        if !S::any(is_outside) {
+            return inverse;
+        }
+        let gap = S::select(is_early, self.early.gap, self.late.gap);
+        let rest = S::select(is_early, self.early.rest, self.late.rest);
+        let own = stretch * (rest + gap / excess) + sum;
+        S::select(is_outside, own, self.never()).min(inverse)
     }
 
     /// λ D_(n+1).

@@ -119,7 +119,7 @@ fn orbit<S: Scalar>(power: u32, p: Vec3<S>, constants: &Constants<'_, S>) -> S {
         |[x, y, z, stretch, sum, inverse, n]| {
             let across = x.square() + y.square();
             let square = across + z.square();
-            let inverse = escape.sooner(inverse, square, stretch, sum);
+            let inverse = escape.sooner(inverse, n, square, stretch, sum);
             let radius = S::length2(x, y);
             let unit = one / radius.max(one.lift(LEAST_RADIUS));
             let (ux, uy) = (x * unit, y * unit);

@@ -98,7 +98,7 @@ fn orbit<S: Scalar>(power: u32, p: Vec3<S>, constants: &Constants<'_, S>) -> S {
         |[x, y, z, w, stretch, sum, inverse, n]| {
             let imaginary = y.square() + z.square() + w.square();
             let square = x.square() + imaginary;
-            let inverse = escape.sooner(inverse, square, stretch, sum);
+            let inverse = escape.sooner(inverse, n, square, stretch, sum);
             let [real, factor] = complex_power(power, x, imaginary);
             // Of k = 2 both terms are tangents of 2 |z| by its square; their slopes need no floor.
             let by = if power == 2 {
