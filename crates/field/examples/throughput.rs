@@ -1,5 +1,5 @@
 //! Prints how many points a second the batch evaluator handles, for a CSG scene of 10 primitives and 9 operators
-//! ("csg20") and for 256 primitives ("many256"), on each instruction set of this machine.
+//! ("csg20"), for 256 primitives ("many256") and for two fractals with 10 iterations, on each instruction set of this machine.
 //!
 //! `cargo run --release -p freikugel-field --example throughput`
 
@@ -36,7 +36,9 @@ fn main() {
     let mut values = vec![0.0; POINTS];
     let mut gradient = [vec![0.0; POINTS], vec![0.0; POINTS], vec![0.0; POINTS]];
     let mut hessian = [(); 6].map(|()| vec![0.0; POINTS]);
-    for (name, field) in [("csg20", csg20()), ("many256", many(256))] {
+    let julia = quaternion_julia([-0.2, 0.6, 0.2, 0.2]).with("iterations", &[10.into()]).into();
+    let bulb = mandelbulb(8).with("iterations", &[10.into()]).into();
+    for (name, field) in [("csg20", csg20()), ("many256", many(256)), ("julia", julia), ("mandelbulb", bulb)] {
         let structure = Structure::compile(&[field]).expect("sound fields");
         let program = structure.program(glam::DVec3::ZERO);
         println!("{name}: {} operations", structure.operations());

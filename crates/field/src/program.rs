@@ -223,6 +223,7 @@ pub struct Part {
     pub(crate) steps: Steps,
     is_measured: bool,
     is_warped: bool,
+    is_loose: bool,
     listing: OnceLock<Listing>,
     one_by_one: OnceLock<Listing>,
     kept: OnceLock<Listing>,
@@ -238,10 +239,12 @@ impl Part {
         // left does not read them any more.
         let is_measured = !steps.list.iter().any(|step| matches!(step, Step::Coordinate { .. } | Step::Literal { .. }));
         let is_warped = !is_measured && !steps.list.iter().any(|step| matches!(step, Step::Surface { .. }));
+        let is_loose = steps.list.iter().any(|step| matches!(step, Step::Primitive { table, .. } if table.is_loose));
         Self {
             steps,
             is_measured,
             is_warped,
+            is_loose,
             listing: OnceLock::new(),
             one_by_one,
             kept: OnceLock::new(),
@@ -260,6 +263,11 @@ impl Part {
     /// [`Cells::slope`](crate::Cells::slope) says how steep they are.
     pub fn is_warped(&self) -> bool {
         self.is_warped
+    }
+
+    /// Whether some of its values are much smaller than distances, so that rays gain by relaxed steps.
+    pub fn is_loose(&self) -> bool {
+        self.is_loose
     }
 
     /// How many steps there are.
