@@ -1,16 +1,20 @@
 //! The bound that fractals of escaping orbits share: proven, and with a slope of at most 1.
 //!
-//! An orbit z_0, z_1, ... starts at a point and follows z_(n+1) = z_n^k + c. The shape is the set of points with
-//! |z_N| <= B, for N iterations and the bailout B. Two things are needed of it. Thresholds T_n: whoever has |z_n| > T_n has
-//! |z_N| > B; with |c| <= C they are T_N = B and T_n = (T_(n+1) + C)^(1/k). They fall quickly to the least bailout; here the last few before N
-//! are replaced by T_(N-1), and all before those by one T as well. And a majorant D_n of the stretch |dz_n/dp| that does not change too fast itself:
+//! An orbit z_0, z_1, ... starts at a point and follows z_(n+1) = z_n^k + c. The shape is the set of points with |z_N| <= B, for
+//! N iterations and the bailout B. Two things are needed of it.
+//!
+//! Thresholds T_n: whoever has |z_n| > T_n has |z_N| > B. With |c| <= C they are T_N = B and T_n = (T_(n+1) + C)^(1/k). They fall
+//! quickly to the least bailout; here T_(N-1), the largest, stands for the last few before N, and one T for all before those.
+//!
+//! And a majorant D_n of the stretch |dz_n/dp| that does not change too fast itself:
 //!
 //! - D_0 = 1, D_(n+1) = D_n L_n, where L_n is at least the stretch of z^k at z_n, and |grad ln L_n| <= 2 λ |dz_n/dp|;
 //! - E_0 = 0, E_(n+1) = E_n + λ D_n.
 //!
 //! By induction |grad D_n| <= 2 E_n D_n, and |grad E_n| <= sum 2 E_i λ D_i <= E_n^2. A sum D_n L_n + 1, where c is the point
 //! itself, keeps both. Now let g be a threshold and φ = 2 g (|z_n|^2 - g^2) / (|z_n|^2 + 3 g^2). This has the sign of
-//! |z_n| - g and, by |z_n|, a slope between 0 and 1, which it reaches at g. The field of step n is v_n = φ / (D_n + E_n |φ|), and
+//! |z_n| - g and, by |z_n|, a slope between 0 and 1, which it reaches at g. The field of step n is
+//! v_n = φ / (D_n + E_n |φ|), and
 //!
 //! |grad 1/v_n| = |grad (D_n / |φ| + E_n)| <= 2 E_n D_n / |φ| + D_n^2 / φ^2 + E_n^2 = (D_n / |φ| + E_n)^2 = 1 / v_n^2,
 //!
@@ -18,11 +22,12 @@
 //! is the largest of the positive v_n before the last step, of v_N, which alone has the sign of |z_N| - B, and of |p| - T_0:
 //! again with a slope of at most 1, hence a bound on both sides.
 //!
-//! Once |z_n| is above a radius S, no later step gives a larger value, and the loop ends: 1/v_n falls short of
-//! 1/v_(n+1) >= D_n k |z_n|^(k-1) / (2 B) + E_n + λ D_n from where (a^2 + 3 T^2) / (2 T (a^2 - T^2)) <= k a^(k-1) / (2 B) + λ for either T.
+//! Once |z_n| is above a radius S, no later step gives a larger value, and the loop ends. For
+//! 1/v_(n+1) >= D_n k |z_n|^(k-1) / (2 B) + E_n + λ D_n, and 1/v_n is less than that from the radius a on where
+//! (a^2 + 3 T^2) / (2 T (a^2 - T^2)) <= k a^(k-1) / (2 B) + λ holds for either T.
 //!
 //! The classical estimate |z_n| ln |z_n| / |dz_n/dp| (Hart, Sandin, Kauffman, "Ray Tracing Deterministic 3-D Fractals", 1989)
-//! is about three times as large and promises nothing.
+//! is three to five times as large near the surface, and promises nothing.
 
 use crate::shape_prelude::*;
 
@@ -275,7 +280,7 @@ pub(crate) fn complex_power<S: Scalar>(k: u32, x: S, y_square: S) -> [S; 2] {
 #[inline(always)]
 pub(crate) fn power_below<S: Scalar>(k: u32, square: S) -> S {
     let even = square.powi((k as i32 - 1) / 2);
-    if k % 2 == 0 { even * (square * 0.5 + 0.5) } else { even }
+    if k.is_multiple_of(2) { even * (square * 0.5 + 0.5) } else { even }
 }
 
 /// An upper bound of the derivative of ln L by a, L being the larger of [`power_below`] and of its floor.
@@ -287,6 +292,6 @@ pub(crate) fn steepest_power(power: f64) -> f64 {
     let least = FLOOR.powf(power - 1.0);
     let k = power as u32;
     let floor = least_with(0.0, |a| power_below(k, a * a) >= least);
-    let own = if k % 2 == 0 { (power - 2.0) / floor + 1.0 } else { (power - 1.0) / floor };
+    let own = if k.is_multiple_of(2) { (power - 2.0) / floor + 1.0 } else { (power - 1.0) / floor };
     own.max(power - 1.0)
 }

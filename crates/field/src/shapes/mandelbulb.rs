@@ -2,9 +2,9 @@
 //! the length to the power and multiplies both polar angles with it. The bound is that of [`super::escape`].
 //!
 //! With r the length, θ the angle from the axis and φ the one around it, the power stretches by k r^(k-1) along r and θ,
-//! and by k r^(k-1) |sin kθ / sin θ| along φ. No angle is computed: for ρ = r sin θ and z = r cos θ, (z + iρ)^k = A + iρQ holds
-//! A = r^k cos kθ and Q = r^(k-1) sin kθ / sin θ, and the angle around the axis goes as ((x + iy) / ρ)^k. So L is k times
-//! the largest of r^(k-1), |Q| and a floor.
+//! and by k r^(k-1) |sin kθ / sin θ| along φ. No angle is computed: with ρ = r sin θ and z = r cos θ,
+//! (z + iρ)^k = A + iρQ for A = r^k cos kθ and Q = r^(k-1) sin kθ / sin θ, and the angle around the axis goes as
+//! ((x + iy) / ρ)^k. So L is k times the largest of r^(k-1), |Q| and a floor.
 
 use super::escape::{
     BAILOUT, Escape, FLOOR, MAX_ITERATIONS, Radii, complex_power, iterations, least_with, power, power_below,

@@ -2,8 +2,8 @@
 //! and Display of Geometric Fractals in 3-D", 1982). The bound is that of [`super::escape`].
 //!
 //! A power of a quaternion lies in the plane of its real part and its imaginary direction, and is that of a complex number
-//! there. Its stretch is k |z|^(k-1) along this plane and at most that across it, by (z+d)^k = z^k + sum z^i d z^(k-1-i) + ...;
-//! so L is any upper bound of k |z|^(k-1).
+//! there. By the product rule its derivative along d is the sum of the k products z^i d z^(k-1-i), so that it stretches by
+//! k |z|^(k-1) at most; L is an upper bound of that.
 
 use super::escape::{
     BAILOUT, Escape, FLOOR, MAX_ITERATIONS, Radii, complex_power, iterations, power, power_below, steepest_power,

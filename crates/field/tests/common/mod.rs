@@ -52,7 +52,7 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
         ParamKind::Positive => push(random.range(0.2, 1.2)),
         ParamKind::Factor => push(sign * random.range(0.5, 2.0)),
         ParamKind::Count(least, most) => {
-            push(f64::from(least + random.below((most.min(least + 9) - least) as usize) as u32))
+            push(f64::from(least + random.below((most.min(least + 9) - least) as usize) as u32));
         }
         ParamKind::Angle => push(random.range(-4.0, 4.0)),
         ParamKind::Choice(names) => push(random.below(names.len()) as f64),
