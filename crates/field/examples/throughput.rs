@@ -35,6 +35,7 @@ fn main() {
     let points = Points { x: &x, y: &y, z: &z };
     let mut values = vec![0.0; POINTS];
     let mut gradient = [vec![0.0; POINTS], vec![0.0; POINTS], vec![0.0; POINTS]];
+    let mut hessian = [(); 6].map(|()| vec![0.0; POINTS]);
     for (name, field) in [("csg20", csg20()), ("many256", many(256))] {
         let structure = Structure::compile(&[field]).expect("sound fields");
         let program = structure.program(glam::DVec3::ZERO);
@@ -45,5 +46,11 @@ fn main() {
             evaluator.gradients(points, &mut values, [gx, gy, gz]);
         };
         measure(&format!("{name} gradients"), &program, &mut gradients, POINTS);
+        let [xx, yy, zz, xy, xz, yz] = &mut hessian;
+        let [gx, gy, gz] = &mut gradient;
+        let mut hessians = |evaluator: &mut Evaluator<'_>| {
+            evaluator.hessians(points, &mut values, [gx, gy, gz], [xx, yy, zz, xy, xz, yz]);
+        };
+        measure(&format!("{name} Hessians"), &program, &mut hessians, POINTS);
     }
 }

@@ -4,11 +4,11 @@
 //! directions, the farthest a point of the shape can lie. A direction passes through affine maps exactly, so a rotated
 //! torus gets its true box and not the box of a rotated box.
 
-use crate::contract::{Aabb, Contract, Extent, Metric};
+use crate::contract::{Aabb, Contract, Extent};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::field::{Field, Node};
 use crate::shape::{Arity, Hull, Kind};
-use crate::shapes::formula;
+use crate::shapes::{displace, formula, twist, warp};
 use glam::{DMat3, DVec3};
 
 /// The deepest nesting a field may have; deeper ones would exhaust the stack of a small thread.
@@ -82,7 +82,7 @@ impl Walk {
                 return None;
             }
         }
-        if !sound {
+        if !(self.formulas_are_sound(node) && sound) {
             return None;
         }
         let args = node.numbers();
@@ -125,19 +125,41 @@ impl Walk {
             Kind::Paint => children[0],
             Kind::Formula => {
                 self.primitives += 1;
-                match &node.formula {
-                    Some(Ok(_)) => {}
-                    Some(Err(fault)) => {
-                        self.report(node, Severity::Error, None, fault.to_string(), fault.hint.clone());
-                        return None;
-                    }
-                    None => return self.error(node, None, format!("`{name}` needs `f`, the formula")),
+                Some(formula::contract(node, &args))
+            }
+            Kind::Warp => Some(warp::contract(node, &args, children[0]?)),
+            Kind::Twist => match twist::contract(node, children[0]?) {
+                Ok(contract) => Some(contract),
+                Err(fault) => self.error(node, None, fault),
+            },
+            Kind::Displace => {
+                let child = children[0]?;
+                if !child.signed {
+                    let message = "a sheet has no sides to be displaced to".to_owned();
+                    let hint = Some("give it a thickness with `offset`, or displace what it is made of".into());
+                    self.report(node, Severity::Error, None, message, hint);
+                    return None;
                 }
-                let implicit = Metric::Implicit;
-                let signed = !formula::Parts::of(&args).is_sheet;
-                Some(Contract { outside: implicit, inside: implicit, signed, lipschitz: None })
+                Some(displace::contract(node, child))
             }
         }
+    }
+
+    fn formulas_are_sound(&mut self, node: &Node) -> bool {
+        let mut sound = true;
+        for (index, param) in node.shape.formulas().iter().enumerate() {
+            match node.formulas.get(index) {
+                Some(Ok(_)) => continue,
+                Some(Err(fault)) => {
+                    self.report(node, Severity::Error, None, fault.to_string(), fault.hint.clone());
+                }
+                None => {
+                    self.error(node, None, format!("`{}` needs `{}`, a formula", node.shape.about.name, param.name));
+                }
+            }
+            sound = false;
+        }
+        sound
     }
 
     fn arguments_are_sound(&mut self, node: &Node) -> bool {
@@ -170,12 +192,17 @@ impl Walk {
 
 /// The box that holds the shape of a sound field.
 pub fn extent(field: &Field) -> Extent {
+    extent_at(field, 0.0)
+}
+
+/// The box that holds all points where a sound field is at most `level`, which is not negative.
+pub(crate) fn extent_at(field: &Field, level: f64) -> Extent {
     let (mut min, mut max) = (DVec3::ZERO, DVec3::ZERO);
     for axis in 0..3 {
         let mut direction = DVec3::ZERO;
         direction[axis] = 1.0;
-        max[axis] = support(field, direction, 0.0);
-        min[axis] = -support(field, -direction, 0.0);
+        max[axis] = support(field, direction, level);
+        min[axis] = -support(field, -direction, level);
     }
     if (0..3).any(|axis| max[axis] == f64::NEG_INFINITY || min[axis] > max[axis]) {
         Extent::Empty
@@ -187,7 +214,7 @@ pub fn extent(field: &Field) -> Extent {
 }
 
 /// An upper bound of `direction . p` over all points where the field is at most `level`.
-fn support(field: &Field, direction: DVec3, level: f64) -> f64 {
+pub(crate) fn support(field: &Field, direction: DVec3, level: f64) -> f64 {
     let node = field.node();
     let args = node.numbers();
     match &node.shape.kind {
@@ -217,7 +244,13 @@ fn support(field: &Field, direction: DVec3, level: f64) -> f64 {
             None => f64::INFINITY,
         },
         Kind::Paint => support(&node.children[0], direction, level),
-        Kind::Formula => formula::Parts::of(&args).support(direction, level),
+        Kind::Formula => formula::Parts::of(&args).region.support(direction, level),
+        Kind::Warp => {
+            let region = formula::Region::of(&args).support(direction, level);
+            region.min(support(&node.children[0], direction, level) + warp::reach(node, direction))
+        }
+        Kind::Twist => twist::support(node, direction, level),
+        Kind::Displace => support(&node.children[0], direction, level + displace::depth(node)),
     }
 }
 

@@ -32,6 +32,11 @@ pub(crate) trait Number: Sized {
     fn stretched(_from: &Self::Reach, _norm: f32) -> Self::Reach {
         Self::Reach::default()
     }
+
+    /// The reach of points whose coordinates are these numbers.
+    fn reach_of(_point: &[Block], _count: usize) -> Self::Reach {
+        Self::Reach::default()
+    }
 }
 
 /// A primitive's work on one batch, for any number type.
@@ -147,6 +152,17 @@ impl<N: Number> Bank<N> {
                 let (_, out) = apart::<N>(&mut self.values, out);
                 let (number, zero) = (Source::Constant(program.double[constant]), Source::Constant(0.0));
                 (N::FORMULA.binary)(level, Binary::Add, &mut BinaryJob { a: number, b: zero, out, count });
+            }
+            Op::Warp { from, to } => {
+                let size = 3 * N::COMPONENTS;
+                let point = &mut self.points[to * size..(to + 1) * size];
+                for (from, to) in from.into_iter().zip(point.chunks_mut(N::COMPONENTS)) {
+                    let from = &self.values[from * N::COMPONENTS..(from + 1) * N::COMPONENTS];
+                    for (from, to) in from.iter().zip(to) {
+                        to.0[..count].copy_from_slice(&from.0[..count]);
+                    }
+                }
+                self.reach[to] = N::reach_of(point, count);
             }
             Op::Copy { from, out } => {
                 let (values, out) = apart::<N>(&mut self.values, out);
@@ -267,6 +283,25 @@ impl Reach {
     }
 }
 
+impl Reach {
+    /// The reach of points whose coordinates have `C` components: two ends, and for jets the ends of a derivative.
+    fn of<const C: usize>(point: &[Block], count: usize) -> Self {
+        let mut reach = Self::default();
+        let squares = |lane: usize, half: fn(f32, f32) -> f32, first: usize| {
+            let side = |axis: usize| half(point[axis * C + first].0[lane], point[axis * C + first + 1].0[lane]);
+            let [x, y, z] = [side(0), side(1), side(2)];
+            (x * x + y * y + z * z).sqrt() * WIDER
+        };
+        for lane in 0..count {
+            reach.radius.0[lane] = squares(lane, |lo, hi| 0.5 * (hi - lo), 0);
+            if C > 2 {
+                reach.speed.0[lane] = squares(lane, |least, most| least.abs().max(most.abs()), 2);
+            }
+        }
+        reach
+    }
+}
+
 /// Makes up for a few rounding errors upward.
 const WIDER: f32 = 1.0 + 8.0 * f32::EPSILON;
 
@@ -294,6 +329,9 @@ macro_rules! over_boxes {
             }
             fn stretched(from: &Reach, norm: f32) -> Reach {
                 from.stretched(norm)
+            }
+            fn reach_of(point: &[Block], count: usize) -> Reach {
+                Reach::of::<$components>(point, count)
             }
         }
     };

@@ -9,7 +9,7 @@ use crate::formula::{Binary, Formula, Term, Unary};
 use crate::kernel::AFFINE_CONSTANTS;
 use crate::operation::{Code, Derive, Link, NO_REGION, Region, Run, Step, StepId, Steps};
 use crate::shape::{CombineTable, Kind, Shape};
-use crate::shapes::{self, formula};
+use crate::shapes::{self, formula, twist};
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
@@ -176,7 +176,76 @@ impl Compiler {
                 let material = node.material.or(material);
                 self.emit(&tree.children[0], space, material, before)
             }
+            Kind::Warp => {
+                let (space, at) = self.settled(space);
+                let formula = |axis| node.formula(axis).expect("analysis refuses formulas that can't be read");
+                let [x, y, z] = [0, 1, 2].map(|axis| self.formula(formula(axis), space.point, at));
+                let warped = Space { point: self.push(Step::Warp { x, y, z }), chain: Vec::new() };
+                let value = self.emit(&tree.children[0], &warped, material, None);
+                let value = match self.cut(formula::Region::of(&node.numbers()), tree.args.clone(), space.point, at) {
+                    Some(by) => self.push(Step::Altered { op: Binary::Max, from: value, by }),
+                    None => value,
+                };
+                self.joined(before, value)
+            }
+            Kind::Twist => {
+                let (space, at) = self.settled(space);
+                let point = self.twisted(tree, space.point, at);
+                let value = self.emit(&tree.children[0], &Space { point, chain: Vec::new() }, material, None);
+                self.joined(before, value)
+            }
+            Kind::Displace => {
+                let (space, at) = self.settled(space);
+                let from = self.emit(&tree.children[0], &space, material, None);
+                let formula = node.formula(0).expect("analysis refuses formulas that can't be read");
+                let by = self.formula(formula, space.point, at);
+                let value = self.push(Step::Altered { op: Binary::Add, from, by });
+                self.joined(before, value)
+            }
         }
+    }
+
+    /// Emits the point turned back by the angle of a twist.
+    fn twisted(&mut self, tree: &Slotted<'_>, point: StepId, at: Run) -> StepId {
+        let [u, v, along] = twist::axes(tree.node);
+        self.fixed.insert(tree.args.end - 1);
+        let rate = self.prepared(|args| args[..1].to_vec(), &tree.args).start() as u32;
+        let mut values = [0, 1, 2].map(|axis| self.push(Step::Coordinate { point, axis, at }));
+        let rate = self.push(Step::Literal { constant: rate });
+        let angle = self.push(Step::Binary { op: Binary::Mul, a: values[along], b: rate });
+        let cos = self.push(Step::Unary { op: Unary::Cos, from: angle });
+        let sin = self.push(Step::Unary { op: Unary::Sin, from: angle });
+        let mut product = |a: StepId, b: StepId| self.push(Step::Binary { op: Binary::Mul, a, b });
+        let (x, y) = (values[u], values[v]);
+        let [x_cos, y_sin, y_cos, x_sin] = [product(x, cos), product(y, sin), product(y, cos), product(x, sin)];
+        values[u] = self.push(Step::Binary { op: Binary::Add, a: x_cos, b: y_sin });
+        values[v] = self.push(Step::Binary { op: Binary::Sub, a: y_cos, b: x_sin });
+        let [x, y, z] = values;
+        self.push(Step::Warp { x, y, z })
+    }
+
+    /// A space whose point needs nothing but a translation, and that translation.
+    fn settled(&mut self, space: &Space) -> (Space, Run) {
+        let space = if space.chain.iter().all(Link::is_translation) { space.clone() } else { self.materialise(space) };
+        let at = self.offset(&space);
+        (space, at)
+    }
+
+    /// Emits the distance from the region that the arguments `args` stand for, if that is not all of space.
+    fn cut(&mut self, region: formula::Region, args: Range<usize>, point: StepId, at: Run) -> Option<StepId> {
+        // What kind of region it is shapes the steps; its sizes are numbers like others.
+        self.fixed.insert(args.start);
+        let (shape, prepare): (&Shape, Prepare) = match region {
+            formula::Region::Everywhere => return None,
+            formula::Region::Sphere { .. } => (&shapes::SPHERE, |size| size[..1].to_vec()),
+            formula::Region::Box { .. } => {
+                (&shapes::BOX, |size| vec![size[0] / 2.0, size[1] / 2.0, size[2] / 2.0, 0.0])
+            }
+        };
+        let Kind::Primitive(table) = &shape.kind else { unreachable!("a sphere or a box") };
+        let constants = self.prepared(prepare, &(args.start + 1..args.end));
+        let slope = self.derived(1, |out| Derive::Literals { numbers: vec![1.0], out }).start() as u32;
+        Some(self.push(Step::Primitive { table, point, at, constants, slope, region: NO_REGION }))
     }
 
     /// The minimum of a value and the one before it, if there is one.
@@ -188,31 +257,17 @@ impl Compiler {
 
     /// Emits a formula with its cut.
     fn formula_node(&mut self, tree: &Slotted<'_>, space: &Space, material: Option<MaterialId>) -> StepId {
-        let expression = formula::expression(tree.node).expect("analysis refuses formulas that can't be read");
+        let expression = tree.node.formula(0).expect("analysis refuses formulas that can't be read");
         let parts = formula::Parts::of(&tree.node.numbers());
-        let space = if space.chain.iter().all(Link::is_translation) { space.clone() } else { self.materialise(space) };
-        let (point, at) = (space.point, self.offset(&space));
+        let (Space { point, .. }, at) = self.settled(space);
         let mut value = self.formula(expression, point, at);
         if parts.is_sheet {
             value = self.push(Step::Unary { op: Unary::Abs, from: value });
         }
-        // Which kind it is and what it is cut to shape the steps; the region's sizes are numbers like others.
         let args = &tree.args;
-        self.fixed.extend([args.start, args.start + formula::REGION, args.end - 1]);
-        let size = args.start + formula::REGION + 1..args.end - 1;
-        let cut: Option<(&Shape, Prepare)> = match parts.region {
-            formula::Region::Everywhere => None,
-            formula::Region::Sphere { .. } => Some((&shapes::SPHERE, |size| size[..1].to_vec())),
-            formula::Region::Box { .. } => {
-                Some((&shapes::BOX, |size| vec![size[0] / 2.0, size[1] / 2.0, size[2] / 2.0, 0.0]))
-            }
-        };
-        if let Some((shape, prepare)) = cut {
-            let Kind::Primitive(table) = &shape.kind else { unreachable!("a sphere or a box") };
-            let constants = self.prepared(prepare, &size);
-            let slope = self.derived(1, |out| Derive::Literals { numbers: vec![1.0], out }).start() as u32;
-            let b = self.push(Step::Primitive { table, point, at, constants, slope, region: NO_REGION });
-            value = self.push(Step::Binary { op: Binary::Max, a: value, b });
+        self.fixed.extend([args.start, args.end - 1]);
+        if let Some(by) = self.cut(parts.region, args.start + formula::REGION..args.end - 1, point, at) {
+            value = self.push(Step::Binary { op: Binary::Max, a: value, b: by });
         }
         let region = self.region(Region { object: self.object, material });
         self.push(Step::Surface { from: value, region })
@@ -289,7 +344,7 @@ fn can_fold(node: &Node) -> bool {
         Kind::Place(_) => is_rigid(node) && can_fold(node.children[0].node()),
         Kind::Modify(_) => false,
         Kind::Paint => can_fold(node.children[0].node()),
-        Kind::Formula => true,
+        Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => true,
     }
 }
 

@@ -20,16 +20,21 @@ pub struct Contract {
     pub inside: Metric,
     /// Whether negative values mean inside. A sheet has no inside; its field is never negative.
     pub signed: bool,
-    /// The largest slope: |f(p) - f(q)| <= lipschitz |p - q| everywhere; `None` if not known.
+    /// The largest slope: |f(p) - f(q)| <= lipschitz |p - q| for all points `within`; `None` if not known.
     pub lipschitz: Option<f64>,
+    /// The box in which `lipschitz` holds; everywhere if `None`. [`analyse`](crate::analyse) only says what holds
+    /// everywhere, [`explore`](crate::explore()) looks for more.
+    pub within: Option<Aabb>,
 }
 
 impl Contract {
     /// An exact signed distance.
-    pub const EXACT: Self = Self { outside: Metric::Exact, inside: Metric::Exact, signed: true, lipschitz: Some(1.0) };
+    pub const EXACT: Self =
+        Self { outside: Metric::Exact, inside: Metric::Exact, signed: true, lipschitz: Some(1.0), within: None };
 
     /// A signed bound with slope at most 1.
-    pub const BOUND: Self = Self { outside: Metric::Bound, inside: Metric::Bound, signed: true, lipschitz: Some(1.0) };
+    pub const BOUND: Self =
+        Self { outside: Metric::Bound, inside: Metric::Bound, signed: true, lipschitz: Some(1.0), within: None };
 
     /// An exact distance to something without inside.
     pub const SHEET: Self = Self { signed: false, ..Self::EXACT };
@@ -51,6 +56,7 @@ impl Contract {
             inside: self.inside.max(other.inside),
             signed: self.signed && other.signed,
             lipschitz: self.common_lipschitz(other),
+            within: common_box(self.within, other.within),
         }
     }
 
@@ -62,6 +68,14 @@ impl Contract {
     /// Whether a step of the field's size can't cross the surface from outside.
     pub fn is_safe_step(self) -> bool {
         self.outside != Metric::Implicit
+    }
+}
+
+/// Where both of two constants hold: in what their boxes have in common.
+fn common_box(a: Option<Aabb>, b: Option<Aabb>) -> Option<Aabb> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(Aabb { min: a.min.max(b.min), max: a.max.min(b.max) }),
+        (a, b) => a.or(b),
     }
 }
 

@@ -7,6 +7,7 @@ use crate::bank::{Bank, Gradients, Values};
 use crate::kernel::{BATCH, Block, CombineJob, WIDEST};
 use crate::operation::{NO_REGION, Step, StepId};
 use crate::program::{Part, Program};
+use crate::second::Seconds;
 use crate::simd::{self, Level};
 use std::ops::Range;
 
@@ -61,6 +62,7 @@ pub struct Evaluator<'p> {
     level: Level,
     values: Bank<Values>,
     gradients: Bank<Gradients>,
+    pub(crate) seconds: Bank<Seconds>,
     kept: Bank<Values>,
     weights: Vec<Block>,
 }
@@ -78,6 +80,7 @@ impl<'p> Evaluator<'p> {
             level,
             values: Bank::default(),
             gradients: Bank::default(),
+            seconds: Bank::default(),
             kept: Bank::default(),
             weights: Vec::new(),
         }
@@ -227,7 +230,7 @@ impl<'p> Evaluator<'p> {
                             *to += weight;
                         }
                     }
-                    Step::Modify { from, .. } | Step::Scale { from, .. } => {
+                    Step::Modify { from, .. } | Step::Scale { from, .. } | Step::Altered { from, .. } => {
                         let weight = self.weights[own].clone();
                         self.weights[place(from)] = weight;
                     }
@@ -243,6 +246,6 @@ impl<'p> Evaluator<'p> {
 static NOWHERE: [f32; BATCH] = [f32::INFINITY; BATCH];
 
 /// Consecutive ranges of at most a batch.
-fn batches(count: usize) -> impl Iterator<Item = Range<usize>> {
+pub(crate) fn batches(count: usize) -> impl Iterator<Item = Range<usize>> {
     (0..count).step_by(BATCH).map(move |start| start..(start + BATCH).min(count))
 }

@@ -90,8 +90,8 @@ pub struct Node {
     pub children: Vec<Field>,
     /// The material it paints with.
     pub material: Option<MaterialId>,
-    /// The formula it computes, or what is wrong with its text; for [`crate::Kind::Formula`] alone.
-    pub formula: Option<Result<Formula, FormulaError>>,
+    /// The formulas of [`Shape::formulas`], or what is wrong with their texts.
+    pub formulas: Vec<Result<Formula, FormulaError>>,
     /// Where it was written.
     pub origin: Origin,
     depth: u32,
@@ -126,13 +126,19 @@ impl Field {
         }
         let children: Vec<Field> = children.into_iter().collect();
         let depth = 1 + children.iter().map(|c| c.0.depth).max().unwrap_or(0);
-        Self(Arc::new(Node { shape, args, children, material, formula: None, origin, depth }))
+        Self(Arc::new(Node { shape, args, children, material, formulas: Vec::new(), origin, depth }))
     }
 
-    /// The call with a formula to compute.
+    /// The call with the one formula that it takes.
     #[must_use]
-    pub fn with_formula(mut self, formula: Result<Formula, FormulaError>) -> Self {
-        Arc::make_mut(&mut self.0).formula = Some(formula);
+    pub fn with_formula(self, formula: Result<Formula, FormulaError>) -> Self {
+        self.with_formulas([formula])
+    }
+
+    /// The call with the formulas that it takes, in order.
+    #[must_use]
+    pub fn with_formulas(mut self, formulas: impl IntoIterator<Item = Result<Formula, FormulaError>>) -> Self {
+        Arc::make_mut(&mut self.0).formulas = formulas.into_iter().collect();
         self
     }
 
@@ -213,6 +219,11 @@ impl Node {
     /// The numbers of parameter `index`.
     pub fn argument(&self, index: usize) -> Vec<f64> {
         self.args[self.shape.range(index, self.args.len())].iter().map(|value| value.number()).collect()
+    }
+
+    /// Formula number `index`, if it is there and sound.
+    pub fn formula(&self, index: usize) -> Option<&Formula> {
+        self.formulas.get(index)?.as_ref().ok()
     }
 
     /// The axis it stands along as 0, 1 or 2, if it is a shape that has one.

@@ -199,6 +199,26 @@ impl Formula {
         Self(Arc::new(Inner { terms, text }))
     }
 
+    /// The coordinate 0, 1 or 2 itself.
+    ///
+    /// # Panics
+    /// If there is no such coordinate.
+    pub fn coordinate(axis: usize) -> Self {
+        assert!(axis < 3, "there are three coordinates");
+        let mut builder = Builder::default();
+        let input = builder.input(axis);
+        Self::build(&builder, input)
+    }
+
+    /// The difference from coordinate `axis`: what the formula adds to it. A coordinate that is a term of a sum cancels.
+    #[must_use]
+    pub fn minus_coordinate(&self, axis: usize) -> Self {
+        let mut builder = Builder::of(self.terms());
+        let input = builder.input(axis);
+        let difference = builder.binary(Binary::Sub, self.result(), input);
+        Self::build(&builder, difference)
+    }
+
     /// All terms, operands before what is computed from them; every one is needed for the last.
     pub fn terms(&self) -> &[Term] {
         &self.0.terms

@@ -181,6 +181,7 @@ macro_rules! kernels {
 
 kernels!(VALUES, Lanes<_>);
 kernels!(GRADIENTS, Dual<Lanes<_>>);
+kernels!(SECONDS, Dual<Dual<Lanes<_>, 1>, 1>);
 kernels!(RANGES, Intervals<_>);
 kernels!(JETS, Dual<Intervals<_>, 1>);
 

@@ -89,6 +89,40 @@ impl<I: Simd> Packed<I> for Dual<Lanes<I>> {
     }
 }
 
+/// A value and one derivative from two blocks.
+#[inline(always)]
+fn load_dual<I: Simd>(token: I, from: &[Block], lane: usize) -> Dual<Lanes<I>, 1> {
+    let [value, slope] = [&from[0], &from[1]];
+    Dual {
+        value: Lanes::load(token, &value.0[lane..lane + Lanes::<I>::COUNT]),
+        gradient: [Lanes::load(token, &slope.0[lane..lane + Lanes::<I>::COUNT])],
+    }
+}
+
+impl<I: Simd> Packed<I> for Dual<Dual<Lanes<I>, 1>, 1> {
+    const COMPONENTS: usize = 4;
+
+    #[inline(always)]
+    fn splat(token: I, number: f64) -> Self {
+        Dual::independent(Dual::independent(Lanes::splat(token, number as f32)))
+    }
+
+    #[inline(always)]
+    fn load(token: I, from: &[Block], lane: usize) -> Self {
+        let (value, slope) = from.split_at(2);
+        Dual { value: load_dual(token, value, lane), gradient: [load_dual(token, slope, lane)] }
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [Block], lane: usize) {
+        let [slope] = self.gradient;
+        self.value.value.store(&mut to[0].0[lane..lane + Lanes::<I>::COUNT]);
+        self.value.gradient[0].store(&mut to[1].0[lane..lane + Lanes::<I>::COUNT]);
+        slope.value.store(&mut to[2].0[lane..lane + Lanes::<I>::COUNT]);
+        slope.gradient[0].store(&mut to[3].0[lane..lane + Lanes::<I>::COUNT]);
+    }
+}
+
 impl<I: Simd> Packed<I> for Intervals<I> {
     const COMPONENTS: usize = 2;
 
@@ -228,6 +262,10 @@ fn primitive_gradients<P: Primitive>(level: Level, job: &mut PrimitiveJob<'_>) {
     dispatch!(level, token => primitive_loop::<P, _, Dual<Lanes<_>>>(token, job));
 }
 
+fn primitive_seconds<P: Primitive>(level: Level, job: &mut PrimitiveJob<'_>) {
+    dispatch!(level, token => primitive_loop::<P, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
+}
+
 /// A primitive over one batch of points of some number type.
 pub type PrimitiveKernel = fn(Level, &mut PrimitiveJob<'_>);
 
@@ -271,6 +309,10 @@ fn combine_values<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
 
 fn combine_gradients<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
     dispatch!(level, token => combine_loop::<C, _, Dual<Lanes<_>>>(token, job, false));
+}
+
+fn combine_seconds<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
+    dispatch!(level, token => combine_loop::<C, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job, false));
 }
 
 fn combine_ranges<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
@@ -320,6 +362,10 @@ fn modify_values<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
 
 fn modify_gradients<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
     dispatch!(level, token => modify_loop::<M, _, Dual<Lanes<_>>>(token, job));
+}
+
+fn modify_seconds<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
+    dispatch!(level, token => modify_loop::<M, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
 }
 
 fn modify_ranges<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
@@ -383,6 +429,11 @@ pub(crate) fn affine_gradients(level: Level, job: &mut AffineJob<'_>) {
     dispatch!(level, token => affine_loop::<_, Dual<Lanes<_>>>(token, job));
 }
 
+/// Maps a batch of points with second derivatives.
+pub(crate) fn affine_seconds(level: Level, job: &mut AffineJob<'_>) {
+    dispatch!(level, token => affine_loop::<_, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
+}
+
 /// Maps a batch of boxes.
 pub(crate) fn affine_ranges(level: Level, job: &mut AffineJob<'_>) {
     dispatch!(level, token => affine_loop::<_, Intervals<_>>(token, job));
@@ -411,7 +462,7 @@ pub type Dual2 = Dual<Dual<f64>>;
 macro_rules! kernels {
     ($(#[$doc:meta])* $Kernels:ident, $Trait:ident :: $formula:ident, $Fn:ident, $Job:ident,
      $values:ident, $gradients:ident, [$($arg:ident: $Arg:ty),*], expr [$($ExprArg:ty),*]
-     $(, $extra:ident = $extra_fn:ident)*) => {
+     $(, $extra:ident = $extra_fn:ident)* $(; $single:ident: $Single:ty)*) => {
         $(#[$doc])*
         #[derive(Debug)]
         #[allow(missing_docs, reason = "one field for each number type")]
@@ -424,6 +475,7 @@ macro_rules! kernels {
             pub dual: $Fn<Dual<f64>>,
             pub dual2: $Fn<Dual2>,
             pub expr: for<'g> fn($($ExprArg,)* &Constants<'_, Expr<'g>>) -> Expr<'g>,
+            $(pub $single: $Fn<$Single>,)*
         }
 
         impl $Kernels {
@@ -441,6 +493,7 @@ macro_rules! kernels {
                     dual: F::$formula::<Dual<f64>>,
                     dual2: F::$formula::<Dual2>,
                     expr: expr::<F>,
+                    $($single: F::$formula::<$Single>,)*
                 }
             }
         }
@@ -450,15 +503,17 @@ macro_rules! kernels {
 kernels!(
     /// A primitive's formula, for every number type.
     PrimitiveKernels, Primitive::distance, PrimitiveFn, PrimitiveJob, primitive_values, primitive_gradients,
-    [p: Vec3<S>], expr [Vec3<Expr<'g>>]
+    [p: Vec3<S>], expr [Vec3<Expr<'g>>], seconds = primitive_seconds
 );
 kernels!(
     /// A binary operator's formula, for every number type.
     CombineKernels, Combine::combine, CombineFn, CombineJob, combine_values, combine_gradients,
-    [a: S, b: S], expr [Expr<'g>, Expr<'g>], ranges = combine_ranges, jets = combine_jets, models = combine_models, shares = combine_shares
+    [a: S, b: S], expr [Expr<'g>, Expr<'g>], seconds = combine_seconds, ranges = combine_ranges, jets = combine_jets,
+    models = combine_models, shares = combine_shares
 );
 kernels!(
     /// A unary operator's formula, for every number type.
     ModifyKernels, Modify::modify, ModifyFn, ModifyJob, modify_values, modify_gradients,
-    [value: S], expr [Expr<'g>], ranges = modify_ranges, jets = modify_jets, models = modify_models
+    [value: S], expr [Expr<'g>], seconds = modify_seconds, ranges = modify_ranges, jets = modify_jets,
+    models = modify_models; slope: Dual<Interval, 1>
 );

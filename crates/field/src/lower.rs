@@ -52,6 +52,8 @@ pub(crate) enum Op {
     Power { from: usize, exponent: i32, out: usize },
     /// `values[out]` is a constant everywhere.
     Fill { constant: usize, out: usize },
+    /// `points[to]` has the coordinates `values[from]`.
+    Warp { from: [usize; 3], to: usize },
     /// `values[out] = values[from]`.
     Copy { from: usize, out: usize },
 }
@@ -136,6 +138,11 @@ impl Listing {
                 }
                 Step::Power { from, exponent } => Some(Op::Power { from: place(from), exponent, out }),
                 Step::Surface { from, .. } => Some(Op::Copy { from: place(from), out }),
+                Step::Altered { op, from, by } => {
+                    let [a, b] = [from, by].map(|id| Operand::Register(place(id)));
+                    Some(Op::Binary { op, a, b, out })
+                }
+                Step::Warp { x, y, z } => Some(Op::Warp { from: [x, y, z].map(place), to: out }),
             });
             let mut release = |id: StepId| {
                 if fate[id.index()].last_use == index as u32 {

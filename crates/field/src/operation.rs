@@ -95,6 +95,10 @@ pub(crate) enum Step {
     Power { from: StepId, exponent: i32 },
     /// The value of a formula as a whole, which belongs to a region.
     Surface { from: StepId, region: u32 },
+    /// The value `op(from, by)`, which belongs to whatever `from` belongs to.
+    Altered { op: Binary, from: StepId, by: StepId },
+    /// The point with three values as its coordinates.
+    Warp { x: StepId, y: StepId, z: StepId },
 }
 
 /// The region of what belongs to none, since it only bounds something that does.
@@ -112,10 +116,19 @@ impl Step {
             | Self::Power { from, .. }
             | Self::Surface { from, .. } => visit(from),
             Self::Primitive { point, .. } | Self::Coordinate { point, .. } => visit(point),
-            Self::Combine { a, b, .. } | Self::Binary { a, b, .. } => {
+            Self::Combine { a, b, .. } | Self::Binary { a, b, .. } | Self::Altered { from: a, by: b, .. } => {
                 visit(a);
                 if a != b {
                     visit(b);
+                }
+            }
+            Self::Warp { x, y, z } => {
+                visit(x);
+                if y != x {
+                    visit(y);
+                }
+                if z != x && z != y {
+                    visit(z);
                 }
             }
         }
@@ -132,17 +145,18 @@ impl Step {
             | Self::Power { from, .. }
             | Self::Surface { from, .. } => *from = map(*from),
             Self::Primitive { point, .. } | Self::Coordinate { point, .. } => *point = map(*point),
-            Self::Combine { a, b, .. } | Self::Binary { a, b, .. } => {
+            Self::Combine { a, b, .. } | Self::Binary { a, b, .. } | Self::Altered { from: a, by: b, .. } => {
                 *a = map(*a);
                 *b = map(*b);
             }
+            Self::Warp { x, y, z } => [x, y, z].into_iter().for_each(|id| *id = map(*id)),
         }
         self
     }
 
     /// Whether it yields a point.
     pub(crate) fn is_point(&self) -> bool {
-        matches!(self, Self::Point | Self::Affine { .. })
+        matches!(self, Self::Point | Self::Affine { .. } | Self::Warp { .. })
     }
 }
 

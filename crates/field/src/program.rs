@@ -207,6 +207,8 @@ impl Program {
                 Step::Binary { op, a, b } => value = op.apply(values[a.index()], values[b.index()]),
                 Step::Power { from, exponent } => value = values[from.index()].powi(exponent),
                 Step::Surface { from, .. } => value = values[from.index()],
+                Step::Altered { op, from, by } => value = op.apply(values[from.index()], values[by.index()]),
+                Step::Warp { x, y, z } => point = [x, y, z].map(|id| values[id.index()]).into(),
             }
             points.push(point);
             values.push(value);
@@ -220,6 +222,7 @@ impl Program {
 pub struct Part {
     pub(crate) steps: Steps,
     is_measured: bool,
+    is_warped: bool,
     listing: OnceLock<Listing>,
     one_by_one: OnceLock<Listing>,
     kept: OnceLock<Listing>,
@@ -234,9 +237,11 @@ impl Part {
         // What is computed from coordinates other than by primitives has no scale. A formula of which nothing but the cut is
         // left does not read them any more.
         let is_measured = !steps.list.iter().any(|step| matches!(step, Step::Coordinate { .. } | Step::Literal { .. }));
+        let is_warped = !is_measured && !steps.list.iter().any(|step| matches!(step, Step::Surface { .. }));
         Self {
             steps,
             is_measured,
+            is_warped,
             listing: OnceLock::new(),
             one_by_one,
             kept: OnceLock::new(),
@@ -249,6 +254,12 @@ impl Part {
     /// Whether all values in it are distances or bounds of them up to a factor, so that rays can march by them.
     pub fn is_measured(&self) -> bool {
         self.is_measured
+    }
+
+    /// Whether its values are distances but for what warps and displacements do to them, so that rays can march by them where
+    /// [`Cells::slope`](crate::Cells::slope) says how steep they are.
+    pub fn is_warped(&self) -> bool {
+        self.is_warped
     }
 
     /// How many steps there are.

@@ -26,7 +26,9 @@ impl ExactRay {
                 Kind::Place(table) => map *= (table.map)(&node.numbers()),
                 Kind::Paint => {}
                 Kind::Combine(_) if node.children.len() == 1 => {}
-                Kind::Combine(_) | Kind::Modify(_) | Kind::Formula => return None,
+                Kind::Combine(_) | Kind::Modify(_) | Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => {
+                    return None;
+                }
             }
             field = node.children.first()?;
         }

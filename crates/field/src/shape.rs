@@ -350,6 +350,23 @@ pub enum Kind {
     Paint,
     /// Computes a formula.
     Formula,
+    /// Looks its child up at other points, by three formulas.
+    Warp,
+    /// Adds a formula to its child's value.
+    Displace,
+    /// Turns its child about an axis, the more the farther along it.
+    Twist,
+}
+
+/// A formula in x, y and z among what a function takes.
+#[derive(Clone, Copy, Debug)]
+pub struct FormulaParam {
+    /// Its key in scene files.
+    pub name: &'static str,
+    /// Its text if the user writes none; `None` if it is required.
+    pub default: Option<&'static str>,
+    /// What it means.
+    pub about: &'static str,
 }
 
 /// The functions of a [`Primitive`].
@@ -477,7 +494,36 @@ impl Shape {
         match self.kind {
             Kind::Primitive(_) | Kind::Formula => Arity::None,
             Kind::Combine(_) => Arity::Many,
-            Kind::Place(_) | Kind::Modify(_) | Kind::Paint => Arity::One,
+            Kind::Place(_) | Kind::Modify(_) | Kind::Paint | Kind::Warp | Kind::Displace | Kind::Twist => Arity::One,
+        }
+    }
+
+    /// The formulas that it takes, in order.
+    pub fn formulas(&self) -> &'static [FormulaParam] {
+        const fn coordinate(name: &'static str, about: &'static str) -> FormulaParam {
+            FormulaParam { name, default: Some(name), about }
+        }
+        match self.kind {
+            Kind::Formula => &[FormulaParam {
+                name: "f",
+                default: None,
+                about: "The formula in x, y and z that is 0 on the surface.",
+            }],
+            Kind::Warp => {
+                const {
+                    &[
+                        coordinate("x", "A formula: the x at which the shape is looked up."),
+                        coordinate("y", "A formula: the y at which the shape is looked up."),
+                        coordinate("z", "A formula: the z at which the shape is looked up."),
+                    ]
+                }
+            }
+            Kind::Displace => &[FormulaParam {
+                name: "by",
+                default: None,
+                about: "The formula in x, y and z that is added; where it is negative, the surface moves outward.",
+            }],
+            _ => &[],
         }
     }
 

@@ -11,6 +11,7 @@ pub mod convex_polyhedron_bound;
 pub mod cuboid;
 pub mod cylinder;
 pub mod difference;
+pub mod displace;
 pub mod ellipsoid;
 pub mod ellipsoid_bound;
 pub mod formula;
@@ -33,7 +34,9 @@ pub mod sphere;
 pub mod stretch;
 pub mod torus;
 pub mod translate;
+pub mod twist;
 pub mod union;
+pub mod warp;
 pub mod xor;
 
 pub use capsule::*;
@@ -44,6 +47,7 @@ pub use convex_polyhedron_bound::*;
 pub use cuboid::*;
 pub use cylinder::*;
 pub use difference::*;
+pub use displace::*;
 pub use ellipsoid::*;
 pub use ellipsoid_bound::*;
 pub use formula::*;
@@ -65,7 +69,9 @@ pub use sphere::*;
 pub use stretch::*;
 pub use torus::*;
 pub use translate::*;
+pub use twist::*;
 pub use union::*;
+pub use warp::*;
 pub use xor::*;
 
 use crate::shape::Shape;
@@ -80,6 +86,7 @@ pub static ALL: &[&Shape] = &[
     &BOX,
     &CYLINDER,
     &DIFFERENCE,
+    &DISPLACE,
     &ELLIPSOID,
     &ELLIPSOID_BOUND,
     &FORMULA,
@@ -101,6 +108,8 @@ pub static ALL: &[&Shape] = &[
     &STRETCH,
     &TORUS,
     &TRANSLATE,
+    &TWIST,
     &UNION,
+    &WARP,
     &XOR,
 ];

@@ -127,6 +127,57 @@ fn formulas_survive_pruning() {
     }
 }
 
+#[test]
+fn warps_survive_pruning_and_cells_know_their_slopes() {
+    let mut random = Random::new(31);
+    let strong = ["x + exp(-20*((x - 0.5)^2 + y^2 + z^2)) / 2", "y + 0.1*sin(3x)", "z"];
+    let fields = [
+        (cuboid([1.2, 0.8, 1.6]) - sphere(0.5)).twist(80.0).rotate([1.0, 2.0, 3.0], 40.0),
+        sphere(1.0).warp_within_sphere(strong, 0.9),
+        smooth_union(0.3, [sphere(0.6).displace("sin(9x)*sin(9y) / 20"), torus(0.8, 0.2).into()]),
+        formula("x^2 + 2y^2 + z^2 - 0.6").within_sphere(1.5).twist(50.0),
+    ];
+    for field in fields {
+        let beside = sphere(0.4).at([1.4, 0.4, 0.0]);
+        check_field(&[field.clone(), beside.clone()], &mut random);
+        let program = Structure::compile(&[field, beside]).expect("sound").program(DVec3::new(0.3, -0.2, 0.1));
+        let cells = Cells::new(&program, REGION);
+        let mut splitter = Splitter::new(simd::best());
+        for _ in 0..40 {
+            let mut cell = cells.root();
+            for _ in 0..random.below(4) {
+                let children = cells.children(cell, &mut splitter);
+                cell = &children[random.below(children.len())];
+            }
+            let slope = cells.slope(cell);
+            let mut at = || {
+                let offset: [f64; 3] = [0, 1, 2].map(|axis| {
+                    f64::from(cell.middle()[axis]) + f64::from(cell.half()[axis]) * random.range(-1.0, 1.0)
+                });
+                program.origin() + DVec3::from_array(offset)
+            };
+            let mut steepest = 0.0_f64;
+            for _ in 0..200 {
+                let (p, q) = (at(), at());
+                steepest = steepest.max((program.value(p) - program.value(q)).abs() / p.distance(q));
+            }
+            assert!(steepest <= f64::from(slope.bound) * (1.0 + 1e-9), "{steepest} above {slope:?}");
+        }
+    }
+    // A strong spot steepens the cells around it, and no others.
+    let program = Structure::compile(&[sphere(1.0).warp(strong)]).expect("sound").program(DVec3::ZERO);
+    let cells = Cells::new(&program, REGION);
+    let mut splitter = Splitter::new(simd::best());
+    let children = cells.children(cells.root(), &mut splitter);
+    let slopes: Vec<f32> = children
+        .iter()
+        .flat_map(|cell| cells.children(cell, &mut splitter))
+        .map(|cell| cells.slope(cell).bound)
+        .collect();
+    let tame = slopes.iter().filter(|&&slope| slope < 1.5).count();
+    assert!(tame * 10 > slopes.len() * 9 && slopes.iter().any(|&slope| slope > 2.0), "{tame} of {}", slopes.len());
+}
+
 /// How many steps matter on average in the boxes at this depth that hold a surface.
 fn steps_left(fields: &[Field], levels: usize) -> f64 {
     let program = Structure::compile(fields).expect("a sound field").program(DVec3::ZERO);

@@ -38,22 +38,27 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
     let args = field.node().numbers();
     let single = |constants: Vec<f64>| constants.into_iter().map(|c| c as f32).collect::<Vec<f32>>();
     match &shape.kind {
-        Kind::Primitive(table) => [("values", table.kernels.values, 1), ("gradients", table.kernels.gradients, 4)]
-            .into_iter()
-            .map(|(name, kernel, components)| {
-                let (points, mut out) = (blocks(3 * components), blocks(components));
-                let constants = single((table.prepare)(&args));
-                let work: Work = Box::new(move |level, count| {
-                    let (at, before) = (&[0.1, 0.2, 0.3], None);
-                    let (points, constants, out) = (&points, &constants, &mut out);
-                    kernel(level, &mut PrimitiveJob { points, at, constants, before, out, count });
-                });
-                (name, work)
-            })
-            .collect(),
+        Kind::Primitive(table) => [
+            ("values", table.kernels.values, 1),
+            ("gradients", table.kernels.gradients, 4),
+            ("seconds", table.kernels.seconds, 4),
+        ]
+        .into_iter()
+        .map(|(name, kernel, components)| {
+            let (points, mut out) = (blocks(3 * components), blocks(components));
+            let constants = single((table.prepare)(&args));
+            let work: Work = Box::new(move |level, count| {
+                let (at, before) = (&[0.1, 0.2, 0.3], None);
+                let (points, constants, out) = (&points, &constants, &mut out);
+                kernel(level, &mut PrimitiveJob { points, at, constants, before, out, count });
+            });
+            (name, work)
+        })
+        .collect(),
         Kind::Combine(table) => [
             ("values", table.kernels.values, 1),
             ("gradients", table.kernels.gradients, 4),
+            ("seconds", table.kernels.seconds, 4),
             ("shares", table.kernels.shares, 1),
         ]
         .into_iter()
@@ -66,18 +71,22 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
             (name, work)
         })
         .collect(),
-        Kind::Modify(table) => [("values", table.kernels.values, 1), ("gradients", table.kernels.gradients, 4)]
-            .into_iter()
-            .map(|(name, kernel, components)| {
-                let (from, mut out) = (blocks(components), blocks(components));
-                let constants = single((table.prepare)(&args));
-                let work: Work = Box::new(move |level, count| {
-                    kernel(level, &mut ModifyJob { from: &from, constants: &constants, out: &mut out, count });
-                });
-                (name, work)
-            })
-            .collect(),
-        Kind::Place(_) | Kind::Paint | Kind::Formula => Vec::new(),
+        Kind::Modify(table) => [
+            ("values", table.kernels.values, 1),
+            ("gradients", table.kernels.gradients, 4),
+            ("seconds", table.kernels.seconds, 4),
+        ]
+        .into_iter()
+        .map(|(name, kernel, components)| {
+            let (from, mut out) = (blocks(components), blocks(components));
+            let constants = single((table.prepare)(&args));
+            let work: Work = Box::new(move |level, count| {
+                kernel(level, &mut ModifyJob { from: &from, constants: &constants, out: &mut out, count });
+            });
+            (name, work)
+        })
+        .collect(),
+        Kind::Place(_) | Kind::Paint | Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => Vec::new(),
     }
 }
 
@@ -111,7 +120,7 @@ fn every_kernel_gains_from_wider_vectors() {
         eprintln!("skipped: this machine has one instruction set only");
         return;
     };
-    let with_kernels = shapes::ALL.iter().filter(|shape| !matches!(shape.kind, Kind::Formula));
+    let with_kernels = shapes::ALL.iter().filter(|shape| common::is_measured(shape));
     let of_shapes = with_kernels.flat_map(|shape| {
         kernels(shape).into_iter().map(|(kind, work)| (format!("{} {kind}", shape.about.name), work))
     });

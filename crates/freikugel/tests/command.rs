@@ -224,6 +224,27 @@ fn info_schema_and_help_say_what_there_is() {
     ] {
         assert!(text.contains(part), "no {part:?} in {text}");
     }
+    folder.write(
+        "found.json",
+        r#"{ "objects": [ { "name": "bare", "shape": { "formula": "x^2 + y^2 + z^2 - 1" } },
+            { "name": "cut", "shape": { "formula": { "f": "3*x", "within": { "sphere": 2 } } } },
+            { "name": "quadric", "shape": { "formula": { "f": "x^2 - y", "within": { "sphere": 2 } } } },
+            { "name": "warped", "shape": { "warp": { "y": "y + sin(x)", "shape": { "sphere": { "radius": 1 } } } } },
+            { "name": "open", "shape": { "formula": "x*y - 1" } } ] }"#,
+    );
+    let text = stdout(&folder.run(&["info", "found.json"]));
+    for part in [
+        "object \"bare\", material \"\", box (-1.000",
+        "(found)\n  formula f=\"x^2 + y^2 + z^2 - 1\" kind=solid",
+        "cut=capped  [implicit, slope at most 3]",
+        "within (-2.0000, -2.0000, -2.0000) to (2.0000, 2.0000, 2.0000)]",
+        "object \"warped\", material \"\", box (-1.0000, -2.0000, -1.0000) to (1.0000, 2.0000, 1.0000)",
+        "warp y=\"y + sin(x)\" within=",
+        "object \"open\", material \"\", unbounded",
+        "[implicit, slope unknown]",
+    ] {
+        assert!(text.contains(part), "no {part:?} in {text}");
+    }
     let schema: serde_json::Value = serde_json::from_str(&stdout(&folder.run(&["schema"]))).expect("JSON");
     assert!(schema.is_object());
     let shapes = stdout(&folder.run(&["help", "shapes"]));

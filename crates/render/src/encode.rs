@@ -21,6 +21,8 @@ pub fn encode_png(image: &Image, tone: &Tone) -> Result<Vec<u8>, EncodeError> {
     let mut encoder = png::Encoder::new(&mut file, image.width(), image.height());
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
+    // A third of the time of the default, for files that are about a tenth larger.
+    encoder.set_compression(png::Compression::Fast);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     let fault = |error: png::EncodingError| EncodeError(error.to_string());
     let mut writer = encoder.write_header().map_err(fault)?;

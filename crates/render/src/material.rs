@@ -86,7 +86,7 @@ impl Surface {
                     dot(normal, between) / length(between).max(f32::MIN_POSITIVE)
                 }
             };
-            self.specular * libm::powf(cosine.clamp(0.0, 1.0), self.exponent)
+            self.specular * power(cosine.clamp(0.0, 1.0), self.exponent)
         } else {
             0.0
         };
@@ -136,6 +136,26 @@ fn odd_share(point: DVec3, size: f64, footprint: &Footprint) -> f32 {
 #[inline]
 fn modulo2(x: f64) -> f64 {
     x - 2.0 * (x * 0.5).floor()
+}
+
+/// The largest whole exponent that is multiplied out: up to there it is faster than a logarithm and an exponential.
+const MOST_FACTORS: f32 = 1024.0;
+
+/// `base^exponent` for a base between 0 and 1.
+fn power(base: f32, exponent: f32) -> f32 {
+    if exponent != exponent.trunc() || !(0.0..=MOST_FACTORS).contains(&exponent) {
+        return libm::powf(base, exponent);
+    }
+    // By repeated squaring, whose factors stay in order, so that all machines agree.
+    let (mut square, mut product, mut rest) = (base, 1.0, exponent as u32);
+    while rest != 0 {
+        if rest & 1 == 1 {
+            product *= square;
+        }
+        square *= square;
+        rest >>= 1;
+    }
+    product
 }
 
 #[cfg(test)]

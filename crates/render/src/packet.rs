@@ -14,6 +14,12 @@ use freikugel_field::{Cell, Cells, Encloser, Evaluator, Occupancy, Splitter};
 /// A part with this many steps is not worth splitting further: the point and two primitives with their union.
 const SMALL_PART: usize = 8;
 
+/// The same for a part with a warp or a displacement, whose formulas count, too.
+const SMALL_WARPED: usize = 32;
+
+/// Where the field is steeper than this, a search by intervals needs fewer looks than a march would need steps.
+const STEEP: f32 = 16.0;
+
 /// A box this many pixels wide, as seen from the camera, is not split further: fewer rays meet it than fill the lanes.
 const CELL_PIXELS: f32 = 24.0;
 
@@ -127,7 +133,8 @@ impl<'f> Trip<'_, 'f, '_> {
         }
         if self.is_small(cell) {
             let rows = bundle.meet(self.field.level(), cell.middle(), cell.half());
-            return self.cross(bundle, rows, cell);
+            let pace = self.pace_of(cell);
+            return self.cross(bundle, rows, cell, pace);
         }
         let children = self.space.cells.children(cell, self.splitter);
         let side = (1..).find(|n| n * n * n >= children.len()).expect("a cube of boxes");
@@ -171,7 +178,15 @@ impl<'f> Trip<'_, 'f, '_> {
 
     fn is_small(&self, cell: &Cell) -> bool {
         let part = cell.part();
-        if cell.occupancy() != Occupancy::Surface || part.size() <= if part.is_measured() { SMALL_PART } else { *SP } {
+        let (small, pixels) = match (part.is_measured(), part.is_warped()) {
+            (true, _) => (SMALL_PART, CELL_PIXELS),
+            (false, true) => (0, CELL_PIXELS),
+            (false, false) => (SMALL_FORMULA, FORMULA_PIXELS),
+        };
+        if cell.occupancy() != Occupancy::Surface || part.size() <= small {
+            return true;
+        }
+        if part.is_warped() && part.size() <= SMALL_WARPED && self.space.cells.slope(cell).is_tight {
             return true;
         }
         let (middle, half, eye) = (cell.middle(), cell.half(), self.space.eye);
@@ -188,32 +203,49 @@ impl<'f> Trip<'_, 'f, '_> {
         }
         bundle.meet(self.field.level(), root.middle(), root.half());
         let rows = bundle.outside(is_behind);
-        self.cross(bundle, rows, root)
+        let pace = root.part().is_measured().then_some(self.space.pace);
+        self.cross(bundle, rows, root, pace)
     }
 
-    /// Takes the rays of some rows along their stretches, on which the part of `cell` holds.
-    fn cross(&mut self, bundle: &mut Bundle, mut rows: Rows, cell: &'f Cell) -> u64 {
+    /// How rays march in a cell by the values of its part, if they can. Where space is warped, that depends on the cell.
+    fn pace_of(&self, cell: &Cell) -> Option<Pace> {
+        let pace = self.space.pace;
+        if cell.part().is_measured() {
+            return Some(pace);
+        }
+        let slope = cell.part().is_warped().then(|| self.space.cells.slope(cell).bound)?;
+        (slope > 0.0 && slope <= STEEP).then(|| Pace { scale: 1.0 / slope, ..pace })
+    }
+
+    /// Takes the rays of some rows along their stretches, on which the part of `cell` holds; without a pace, they search.
+    fn cross(&mut self, bundle: &mut Bundle, rows: Rows, cell: &'f Cell, pace: Option<Pace>) -> u64 {
         if rows.is_empty() {
             return 0;
         }
-        let (part, pace) = (cell.part(), self.space.pace);
+        let part = cell.part();
         let place = self.places.len() as u32;
         let finds = bundle.finds();
-        let evaluations = if !part.is_measured() {
-            // Without a scale there is no clearance: a surface dims all or nothing.
-            self.search.cross(bundle, rows, self.encloser, part, pace, place)
-        } else if self.quest == Quest::Least {
-            if let Occupancy::Outside(clearance) = cell.occupancy() {
-                rows = bundle.undimmed(clearance * pace.scale);
-            }
-            march::soft(bundle, rows, self.field, part, pace, place)
+        let evaluations = if let Some(pace) = pace {
+            self.march(bundle, rows, cell, pace, place)
         } else {
-            march::hard(bundle, rows, self.field, part, pace, place)
+            // Without a scale there is no clearance: a surface dims all or nothing.
+            self.search.cross(bundle, rows, self.encloser, part, self.space.pace, place)
         };
         if bundle.finds() > finds {
             self.places.push(cell);
         }
         evaluations
+    }
+
+    /// Lets the rays of some rows march through a cell.
+    fn march(&mut self, bundle: &mut Bundle, mut rows: Rows, cell: &Cell, pace: Pace, place: u32) -> u64 {
+        if self.quest != Quest::Least {
+            return march::hard(bundle, rows, self.field, cell.part(), pace, place);
+        }
+        if let Occupancy::Outside(clearance) = cell.occupancy() {
+            rows = bundle.undimmed(clearance * pace.scale);
+        }
+        march::soft(bundle, rows, self.field, cell.part(), pace, place)
     }
 }
 

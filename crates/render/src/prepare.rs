@@ -12,7 +12,8 @@ use crate::view::{CameraError, View, framed};
 use freikugel_field::ray::ExactRay;
 use freikugel_field::simd::{self, Level};
 use freikugel_field::{
-    Aabb, Cells, Contract, Diagnostic, Extent, Field, MaterialId, Program, Severity, Structure, analyse,
+    Aabb, Cells, Contract, Diagnostic, Extent, Field, Limits, MaterialId, Program, Severity, Structure, analyse,
+    find_extent,
 };
 use freikugel_scene::{Camera, Material, Scene};
 use glam::DVec3;
@@ -114,12 +115,20 @@ impl<'s> Renderer<'s> {
         let mut extent = Extent::Empty;
         let mut scale = f64::INFINITY;
         let mut contracts = Vec::new();
-        for (index, (object, analysis)) in scene.objects.iter().zip(&analyses).enumerate() {
+        for (index, (object, mut analysis)) in scene.objects.iter().zip(analyses).enumerate() {
             contracts.push(analysis.contract);
+            let exact_ray = ExactRay::of(&object.shape);
+            if analysis.extent == Extent::Unbounded && exact_ray.is_none() {
+                // What is not there within the reach of the search may still be beyond it.
+                analysis.extent = match find_extent(&object.shape, &Limits::default()) {
+                    Extent::Finite(aabb) => Extent::Finite(aabb),
+                    Extent::Empty | Extent::Unbounded => Extent::Unbounded,
+                };
+            }
             if matches!(analysis.extent, Extent::Finite(_)) {
                 extent = hull(extent, analysis.extent);
             }
-            if let Some(ray) = ExactRay::of(&object.shape) {
+            if let Some(ray) = exact_ray {
                 let structure = Structure::compile(&fields[index..=index]).map_err(PrepareError::Fields)?;
                 let own = structure.regions().first().and_then(|region| region.material);
                 let paint = Paint {
@@ -130,7 +139,8 @@ impl<'s> Renderer<'s> {
                 exact.push(Exact { ray, paint, structure });
             } else if analysis.extent != Extent::Empty {
                 // What has no scale is searched by intervals instead; distances that it is cut with have slope 1.
-                scale = scale.min(safe_scale(&analysis.contract).unwrap_or(1.0));
+                let is_safe = analysis.contract.is_safe_step();
+                scale = scale.min(if is_safe { safe_scale(&analysis.contract) } else { 1.0 });
                 bounds = hull(bounds, analysis.extent);
                 marched.push(index);
             }
@@ -186,10 +196,9 @@ impl<'s> Renderer<'s> {
     }
 }
 
-/// The largest factor that makes field values safe steps.
-fn safe_scale(contract: &Contract) -> Option<f64> {
-    let by_slope = contract.lipschitz.filter(|&slope| slope > 0.0).map(|slope| 1.0 / slope);
-    if contract.is_safe_step() { Some(by_slope.map_or(1.0, |scale| scale.max(1.0))) } else { by_slope }
+/// The largest factor that keeps the steps of a field safe whose values are.
+fn safe_scale(contract: &Contract) -> f64 {
+    contract.lipschitz.filter(|&slope| slope > 0.0).map_or(1.0, |slope| (1.0 / slope).max(1.0))
 }
 
 fn material(scene: &Scene, id: Option<MaterialId>) -> &Material {

@@ -14,7 +14,8 @@ use crate::reader::{Entries, NodePlace, Reader, name_span, span};
 use crate::schema::{Definitions, Need, ObjectSchema};
 use crate::suggest::{closest, quote};
 use crate::syntax::Written;
-use freikugel_field::{Arity, Field, Kind, MaterialId, Origin, Shape, Value, shapes};
+use freikugel_field::shape::FormulaParam;
+use freikugel_field::{Arity, Field, Formula, Kind, MaterialId, Origin, Shape, Value, shapes};
 use jsonc_parser::ast::ObjectProp;
 use serde_json::{Value as Json, json};
 
@@ -26,9 +27,6 @@ const CHILD: &str = "shape";
 
 /// The key of the shapes that a function works on.
 const CHILDREN: &str = "shapes";
-
-/// The key of the formula that a function computes.
-const FORMULA: &str = "f";
 
 /// The key of the material that a function paints with.
 const MATERIAL: &str = "material";
@@ -139,9 +137,9 @@ fn call(reader: &mut Reader, shape: &'static Shape, index: usize, value: &Writte
     let arity = shape.arity();
     let is_paint = matches!(shape.kind, Kind::Paint);
     let is_formula = matches!(shape.kind, Kind::Formula);
-    let mut keys: Vec<&'static str> = about.params.iter().map(|param| param.name).collect();
+    let mut keys: Vec<&'static str> = shape.formulas().iter().map(|formula| formula.name).collect();
+    keys.extend(about.params.iter().map(|param| param.name));
     keys.extend(is_paint.then_some(MATERIAL));
-    keys.extend(is_formula.then_some(FORMULA));
     keys.extend(child_key(arity));
     let what = quote(about.name);
 
@@ -184,13 +182,23 @@ fn call(reader: &mut Reader, shape: &'static Shape, index: usize, value: &Writte
             None => vec![None],
         },
     };
-    if is_formula {
-        entries.require(reader, FORMULA, "the formula");
-        let expression = entries.read(reader, FORMULA, &FormulaNotation);
-        let field = finish(reader, shape, index, args, material, children)?;
-        return Some(field.with_formula(Ok(expression?)));
-    }
-    finish(reader, shape, index, args, material, children)
+    let formulas = formulas(reader, shape, &entries);
+    let field = finish(reader, shape, index, args, material, children)?;
+    Some(field.with_formulas(formulas?.into_iter().map(Ok)))
+}
+
+/// All formulas that a function takes, or `None` after reporting what is wrong with them.
+fn formulas(reader: &mut Reader, shape: &Shape, entries: &Entries<'_>) -> Option<Vec<Formula>> {
+    let read = |param: &FormulaParam| match param.default.filter(|_| entries.get(param.name).is_none()) {
+        Some(text) => Formula::parse(text).ok(),
+        None => {
+            entries.require(reader, param.name, param.about);
+            entries.read(reader, param.name, &FormulaNotation)
+        }
+    };
+    // All of them are looked at.
+    let formulas: Vec<Option<Formula>> = shape.formulas().iter().map(read).collect();
+    formulas.into_iter().collect()
 }
 
 fn child_key(arity: Arity) -> Option<&'static str> {
@@ -270,9 +278,12 @@ fn function_schema(shape: &'static Shape, definitions: &mut Definitions) -> Json
         let name = MaterialNotation.schema(definitions);
         object.key(MATERIAL, "The name of a material.", name, Need::Required);
     }
-    if matches!(shape.kind, Kind::Formula) {
-        let text = FormulaNotation.schema(definitions);
-        object.key(FORMULA, "The formula, in x, y and z.", text, Need::Required);
+    for param in shape.formulas() {
+        let need = match param.default {
+            None => Need::Required,
+            Some(text) => Need::Optional(Some(json!(text))),
+        };
+        object.key(param.name, param.about, FormulaNotation.schema(definitions), need);
     }
     // A shape's definition is under construction here; this only names it.
     let child = || json!({ "$ref": "#/$defs/shape" });

@@ -158,6 +158,14 @@ fn shapes() {
     { "scale": { "factor": 0, "shape": { "spher": { "radius": 1 } } } },
     { "torus": { "major": 1, "minor": 0.25, "axis": "z", "axis": "x" } } ] }"#,
         ),
+        (
+            "warps",
+            r#"{ "union": [
+    { "warp": { "x": "x + ", "y": 1, "w": "z", "shape": { "sphere": { "radius": 1 } } } },
+    { "displace": { "shape": { "sphere": { "radius": 1 } } } } ] }"#,
+        ),
+        ("sheet_displaced", r#"{ "displace": { "by": "x", "shape": { "sheet": { "normal": "z" } } } }"#),
+        ("endless_twist", r#"{ "twist": { "rate": 10, "shape": { "plane": { "normal": "x" } } } }"#),
         ("unpainted", r#"{ "paint": { "shape": { "sphere": { "radius": 1 } } } }"#),
     ] {
         check(name, &with_shape(shape));

@@ -7,7 +7,7 @@ use serde_json::{Map, Value as Json, json};
 use std::sync::LazyLock;
 
 /// Scenes that use every part of the format.
-const SCENES: [&str; 4] = [
+const SCENES: [&str; 5] = [
     r#"{ "objects": [ { "shape": { "sphere": { "radius": 1 } } } ] }"#,
     r##"{ "version": 1, "$schema": "scene.schema.json",
       "camera": { "eye": [4, -6, 3], "target": [0, 0, 1], "up": "z", "fov": 40 },
@@ -33,6 +33,10 @@ const SCENES: [&str; 4] = [
       "lights": [ { "point": { "position": [1, 1, 1], "falloff": "none", "shadow": false } } ],
       "objects": [ { "shape": { "convex_polyhedron": { "half_spaces":
         [ [1, 0, 0, 1], [-1, 0, 0, 1], [0, 1, 0, 1], [0, -1, 0, 1], [0, 0, 1, 1], [0, 0, -1, 1] ] } } } ] }"#,
+    r#"{ "objects": [ { "shape": { "formula": { "f": "x^2 + y^2 - z", "kind": "sheet", "within": { "box": 2 }, "cut": "open" } } },
+      { "shape": { "warp": { "x": "x + 0.1*sin(3z)", "z": "z / 2", "within": { "sphere": 2 }, "shape":
+        { "twist": { "rate": 60, "axis": "x", "shape": { "displace": { "by": "sin(9y) / 20", "shape":
+          { "sphere": { "radius": 1 } } } } } } } } } ] }"#,
 ];
 
 /// The part of JSON Schema that scenes need. Anything else in a schema panics, so that nothing is passed over.

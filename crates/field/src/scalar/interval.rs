@@ -30,6 +30,9 @@ impl Interval {
     /// The whole line: nothing is known.
     pub const ENTIRE: Self = Self { lo: f64::NEG_INFINITY, hi: f64::INFINITY };
 
+    /// The interval that holds 0 alone.
+    pub const ZERO: Self = Self { lo: 0.0, hi: 0.0 };
+
     /// The interval from `lo` to `hi`.
     ///
     /// # Panics

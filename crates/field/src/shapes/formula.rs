@@ -1,8 +1,11 @@
 //! Formula: a surface where an expression in x, y and z is 0.
 
+use crate::contract::{Contract, Metric};
 use crate::field::{Form, Node};
 use crate::formula::Formula as Expression;
+use crate::scalar::{Dual, Interval, Scalar};
 use crate::shape::{About, Kind, Param, ParamKind, Shape};
+use crate::vector::vec3;
 use glam::DVec3;
 
 /// See [`formula`].
@@ -75,6 +78,43 @@ impl From<Expression> for Form<Formula> {
     }
 }
 
+/// What is known about a node of this kind.
+///
+/// Its slope is bounded by what interval arithmetic finds over all of space: for waves there is a bound, for polynomials
+/// above degree 1 there is none. Over a box there nearly always is one: see [`crate::explore()`].
+pub(crate) fn contract(node: &Node, args: &[f64]) -> Contract {
+    let parts = Parts::of(args);
+    let slope = node.formula(0).map_or(f64::INFINITY, slope_everywhere);
+    let cut = if parts.region == Region::Everywhere { 0.0 } else { 1.0 };
+    Contract {
+        outside: Metric::Implicit,
+        inside: Metric::Implicit,
+        signed: !parts.is_sheet,
+        lipschitz: Some(slope.max(cut)).filter(|slope| slope.is_finite()),
+        within: None,
+    }
+}
+
+/// An upper bound of the size of a formula's gradient over all of space; infinite if none is found.
+pub(crate) fn slope_everywhere(formula: &Expression) -> f64 {
+    let [x, y, z] = gradient_everywhere(formula);
+    Interval::length3(x, y, z).hi()
+}
+
+/// An enclosure of a formula's gradients over all of space.
+pub(crate) fn gradient_everywhere(formula: &Expression) -> [Interval; 3] {
+    let all = Interval::new(-FARTHEST, FARTHEST);
+    let input = |axis| Dual::input(all, axis);
+    let gradient = formula.eval(vec3(input(0), input(1), input(2))).gradient;
+    gradient.map(|side| if side.abs().hi() < STEEPEST { side } else { Interval::ENTIRE })
+}
+
+/// The largest coordinate. Infinite ones would make 0 times infinity of the derivative of a constant.
+const FARTHEST: f64 = 1e100;
+
+/// A bound of a slope as large as this is as good as none.
+const STEEPEST: f64 = 1e9;
+
 /// A node of this kind, taken apart.
 pub(crate) struct Parts {
     pub(crate) is_sheet: bool,
@@ -94,27 +134,29 @@ pub(crate) const REGION: usize = 1;
 
 impl Parts {
     pub(crate) fn of(args: &[f64]) -> Self {
-        let &[kind, shape, a, b, c, cut] = args else { unreachable!("six numbers") };
-        let region = match shape {
-            1.0 => Region::Sphere { radius: a },
-            2.0 => Region::Box { size: DVec3::new(a, b, c) },
-            _ => Region::Everywhere,
-        };
+        let &[kind, ref region @ .., cut] = args else { unreachable!("six numbers") };
+        let region = Region::of(region);
         Self { is_sheet: kind > 0.0 || (cut > 0.0 && region != Region::Everywhere), region }
-    }
-
-    /// As [`crate::shape::Primitive::support`].
-    pub(crate) fn support(&self, direction: DVec3, level: f64) -> f64 {
-        let length = direction.length();
-        match self.region {
-            Region::Everywhere => f64::INFINITY,
-            Region::Sphere { radius } => (radius + level) * length,
-            Region::Box { size } => size.dot(direction.abs()) / 2.0 + level * length,
-        }
     }
 }
 
-/// The node's expression, if it has a sound one.
-pub(crate) fn expression(node: &Node) -> Option<&Expression> {
-    node.formula.as_ref()?.as_ref().ok()
+impl Region {
+    /// The region that four numbers stand for: see [`ParamKind::Region`].
+    pub(crate) fn of(numbers: &[f64]) -> Self {
+        match *numbers {
+            [1.0, radius, ..] => Self::Sphere { radius },
+            [2.0, x, y, z] => Self::Box { size: DVec3::new(x, y, z) },
+            _ => Self::Everywhere,
+        }
+    }
+
+    /// As [`crate::shape::Primitive::support`].
+    pub(crate) fn support(self, direction: DVec3, level: f64) -> f64 {
+        let length = direction.length();
+        match self {
+            Self::Everywhere => f64::INFINITY,
+            Self::Sphere { radius } => (radius + level) * length,
+            Self::Box { size } => size.dot(direction.abs()) / 2.0 + level * length,
+        }
+    }
 }

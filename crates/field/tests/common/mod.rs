@@ -96,9 +96,14 @@ pub(crate) fn call(shape: &'static Shape, depth: u32, random: &mut Random) -> Fi
     panic!("no sound call of {} found", shape.about.name);
 }
 
-/// All shapes whose values are distances or bounds of them. Formulas have tests of their own.
+/// Whether the values of a shape are distances or bounds of them. What needs formulas or warps space has tests of its own.
+pub(crate) fn is_measured(shape: &Shape) -> bool {
+    !matches!(shape.kind, Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist)
+}
+
+/// All shapes whose values are distances or bounds of them.
 fn measured() -> impl Iterator<Item = &'static Shape> {
-    shapes::ALL.iter().copied().filter(|shape| !matches!(shape.kind, Kind::Formula))
+    shapes::ALL.iter().copied().filter(|shape| is_measured(shape))
 }
 
 /// A random sound field with at most `depth` operators above a primitive.

@@ -57,8 +57,13 @@ fn describe(shape: &Shape) -> String {
         let _ = writeln!(text, "  {:16} {}", param.name, param.about);
         let _ = writeln!(text, "  {:16} {}", "", values(param));
     }
+    for param in shape.formulas() {
+        let default = param.default.map_or("required".to_owned(), |text| format!("{text} if left out"));
+        let _ = writeln!(text, "  {:16} {}", param.name, param.about);
+        let _ = writeln!(text, "  {:16} (a formula in x, y and z; {default})", "");
+    }
     if matches!(shape.kind, Kind::Formula) {
-        text.push_str("  f                The formula, in x, y and z. It may stand alone as a text.\n");
+        text.push_str("  The formula may stand alone as a text.\n");
     }
     match shape.arity() {
         Arity::None => {}

@@ -2,7 +2,10 @@
 
 use super::input::{self, Input};
 use super::{Failure, print};
-use freikugel::field::{Contract, Extent, Field, Metric, ParamKind, Structure, analyse, extent};
+use freikugel::field::shape::FormulaParam;
+use freikugel::field::{
+    Contract, Extent, Field, Formula, Limits, Metric, ParamKind, Structure, analyse, explore, extent, find_extent,
+};
 use freikugel::scene::Scene;
 use std::fmt::Write;
 use std::path::Path;
@@ -23,7 +26,7 @@ fn describe(scene: &Scene) -> String {
     let (mut nodes, mut primitives) = (0, 0);
     for object in &scene.objects {
         let material = object.material.and_then(|id| scene.materials.get(id.0 as usize)).map_or("", |(name, _)| name);
-        let _ = writeln!(text, "object {:?}, material {material:?}, {}", object.name, boxed(extent(&object.shape)));
+        let _ = writeln!(text, "object {:?}, material {material:?}, {}", object.name, extent_of(&object.shape));
         if let (Some(analysis), _) = analyse(&object.shape) {
             nodes += analysis.nodes;
             primitives += analysis.primitives;
@@ -45,20 +48,30 @@ fn describe(scene: &Scene) -> String {
     text
 }
 
+/// The box of an object, and whether it had to be looked for.
+fn extent_of(field: &Field) -> String {
+    match extent(field) {
+        Extent::Unbounded => match find_extent(field, &Limits::default()) {
+            Extent::Unbounded => boxed(Extent::Unbounded),
+            found => format!("{} (found)", boxed(found)),
+        },
+        known => boxed(known),
+    }
+}
+
 fn tree(field: &Field, depth: usize, scene: &Scene, text: &mut String) {
     let node = field.node();
     let about = &node.shape.about;
     let _ = write!(text, "{:indent$}{}", "", about.name, indent = 2 * depth);
-    if let Some(Ok(formula)) = &node.formula {
+    for (param, formula) in about_formulas(field) {
         let written = formula.text();
-        match written.char_indices().nth(LONGEST_FORMULA) {
-            None => {
-                let _ = write!(text, " f={written:?}");
-            }
+        let _ = match written.char_indices().nth(LONGEST_FORMULA) {
+            None => write!(text, " {}={written:?}", param.name),
             Some((end, _)) => {
-                let _ = write!(text, " f={:?}... ({} operations)", &written[..end], formula.terms().len());
+                let operations = formula.terms().len();
+                write!(text, " {}={:?}... ({operations} operations)", param.name, &written[..end])
             }
-        }
+        };
     }
     for (index, param) in about.params.iter().enumerate() {
         let _ = write!(text, " {}={}", param.name, written(param.kind, &node.argument(index)));
@@ -66,13 +79,22 @@ fn tree(field: &Field, depth: usize, scene: &Scene, text: &mut String) {
     if let Some((name, _)) = node.material.and_then(|id| scene.materials.get(id.0 as usize)) {
         let _ = write!(text, " material={name:?}");
     }
-    if let (Some(analysis), _) = analyse(field) {
+    if let Some(analysis) = explore(field, &Limits::default()) {
         let _ = write!(text, "  [{}]", promise(analysis.contract));
     }
     text.push('\n');
     for child in &node.children {
         tree(child, depth + 1, scene, text);
     }
+}
+
+/// The formulas of a node that are not what they are if left out.
+fn about_formulas(field: &Field) -> impl Iterator<Item = (&'static FormulaParam, &Formula)> {
+    let node = field.node();
+    let sound = node.formulas.iter().map(|formula| formula.as_ref().ok());
+    node.shape.formulas().iter().zip(sound).filter_map(|(param, formula)| {
+        formula.filter(|formula| param.default != Some(formula.text())).map(|formula| (param, formula))
+    })
 }
 
 /// An argument as a scene file has it.
@@ -106,9 +128,12 @@ fn promise(contract: Contract) -> String {
     match contract.lipschitz {
         Some(1.0) => {}
         Some(constant) => {
-            let _ = write!(text, ", slope at most {constant}");
+            let _ = write!(text, ", slope at most {}", brief(constant));
         }
         None => text.push_str(", slope unknown"),
+    }
+    if let (Some(_), Some(within)) = (contract.lipschitz, contract.within) {
+        let _ = write!(text, " within {} to {}", corner(within.min), corner(within.max));
     }
     text
 }
@@ -117,9 +142,22 @@ fn boxed(extent: Extent) -> String {
     match extent {
         Extent::Empty => "empty".into(),
         Extent::Unbounded => "unbounded".into(),
-        Extent::Finite(aabb) => {
-            let corner = |c: glam::DVec3| format!("({:.4}, {:.4}, {:.4})", c.x, c.y, c.z);
-            format!("box {} to {}", corner(aabb.min), corner(aabb.max))
-        }
+        Extent::Finite(aabb) => format!("box {} to {}", corner(aabb.min), corner(aabb.max)),
+    }
+}
+
+/// Four decimals of each coordinate.
+fn corner(c: glam::DVec3) -> String {
+    format!("({:.4}, {:.4}, {:.4})", c.x, c.y, c.z)
+}
+
+/// Four digits of a number, rounded up unless nothing but rounding errors stands behind them.
+fn brief(number: f64) -> String {
+    let unit = 10f64.powf(number.abs().max(f64::MIN_POSITIVE).log10().floor() - 3.0);
+    let rounded = (number / unit * (1.0 - 1e-12)).ceil() * unit;
+    if rounded < 1e6 {
+        format!("{rounded:.4}").trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        format!("{rounded:.3e}")
     }
 }
