@@ -1,47 +1,13 @@
 //! Prints how many points a second the batch evaluator handles, for a CSG scene of 10 primitives and 9 operators
-//! ("csg20") and for 256 primitives ("many256"), on each instruction set of this machine.
+//! ("csg20"), for 256 primitives ("many256") and for two fractals with 10 iterations, on each instruction set of this machine.
 //!
 //! `cargo run --release -p freikugel-field --example throughput`
 
-use freikugel_field::{Evaluator, Field, Points, Program, Structure, shapes::*, simd};
+mod fields;
+
+use fields::{csg20, many};
+use freikugel_field::{Evaluator, Points, Program, Structure, simd};
 use std::time::Instant;
-
-fn csg20() -> Field {
-    let body = cuboid([1.0, 1.0, 0.6]).round(0.05) - cylinder(0.25, 1.2);
-    let body = smooth_union(0.1, [body, torus(0.35, 0.08).at([0.0, 0.0, 0.3])]);
-    let body = smooth_union(0.08, [body, sphere(0.2).at([0.55, 0.0, 0.2])]);
-    let body = smooth_union(0.08, [body, sphere(0.2).at([-0.55, 0.0, 0.2])]);
-    let body = body - cuboid([0.16, 0.4, 1.0]).at([0.0, 0.5, 0.1]).rotate([0.0, 0.0, 1.0], 40.0);
-    let body = body | cylinder(0.1, 1.0);
-    let body = smooth_union(0.05, [body, sphere(0.14).at([0.0, 0.0, 0.55])]);
-    body | cuboid([1.4, 1.4, 0.14]).round(0.02).at([0.0, 0.0, -0.45])
-        | torus(0.6, 0.05).at([0.0, 0.0, -0.35]).rotate([0.0, 0.0, 1.0], 40.0)
-}
-
-fn many(count: usize) -> Field {
-    let mut seed = 0x1234_5678_u32;
-    let mut random = || {
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        f64::from(seed >> 8) / f64::from(1 << 24)
-    };
-    let mut all: Option<Field> = None;
-    for i in 0..count {
-        let at = [(); 3].map(|()| random() * 1.6 - 0.8);
-        let q = 0.04 + 0.06 * random();
-        let next = match i % 4 {
-            0 => sphere(q).at(at),
-            1 => cuboid([2.0 * q, 2.0 * q, 1.2 * q]).round(0.01).at(at),
-            2 => torus(q, 0.3 * q).at(at),
-            _ => cylinder(0.6 * q, 2.0 * q).at(at),
-        };
-        all = Some(match all {
-            None => next,
-            Some(all) if i % 8 == 0 => smooth_union(0.03, [all, next]),
-            Some(all) => all | next,
-        });
-    }
-    all.expect("at least one")
-}
 
 fn measure(name: &str, program: &Program, work: &mut dyn FnMut(&mut Evaluator<'_>), points: usize) {
     for level in simd::available() {
@@ -70,7 +36,9 @@ fn main() {
     let mut values = vec![0.0; POINTS];
     let mut gradient = [vec![0.0; POINTS], vec![0.0; POINTS], vec![0.0; POINTS]];
     let mut hessian = [(); 6].map(|()| vec![0.0; POINTS]);
-    for (name, field) in [("csg20", csg20()), ("many256", many(256))] {
+    let julia = quaternion_julia([-0.2, 0.6, 0.2, 0.2]).with("iterations", &[10.into()]).into();
+    let bulb = mandelbulb(8).with("iterations", &[10.into()]).into();
+    for (name, field) in [("csg20", csg20()), ("many256", many(256)), ("julia", julia), ("mandelbulb", bulb)] {
         let structure = Structure::compile(&[field]).expect("sound fields");
         let program = structure.program(glam::DVec3::ZERO);
         println!("{name}: {} operations", structure.operations());

@@ -6,6 +6,7 @@
 use crate::contract::Aabb;
 use crate::kernel::BATCH;
 use crate::program::{Part, Program};
+pub use crate::prune::Wanted;
 use crate::prune::{Boxes, Survey};
 use crate::scalar::Interval;
 use crate::simd::Level;
@@ -69,6 +70,53 @@ impl Splitter {
     /// Works on a given instruction set.
     pub fn new(level: Level) -> Self {
         Self { level, survey: Survey::default() }
+    }
+
+    /// Finds out about some boxes, all of which lie where `part` holds.
+    ///
+    /// The boxes have the edge lengths `2 * half`, which may be 0 along some axes, and these middles, coordinate by
+    /// coordinate and relative to the program's origin. They are taken somewhat larger, so that nothing falls between
+    /// neighbours.
+    ///
+    /// # Panics
+    /// If there are more than [`BATCH`] boxes, or the coordinates differ in number.
+    pub fn survey<'s>(
+        &'s mut self,
+        program: &'s Program,
+        part: &'s Arc<Part>,
+        middles: [&[f32]; 3],
+        half: [f32; 3],
+    ) -> Surveyed<'s> {
+        let [x, y, z] = middles;
+        assert!(x.len() <= BATCH, "at most a batch of boxes");
+        assert!(x.len() == y.len() && x.len() == z.len(), "coordinates differ in number");
+        // The largest overlap of all boxes is that of those farthest out.
+        let farthest = middles.map(|middles| middles.iter().fold(0.0, |most: f32, middle| most.max(middle.abs())));
+        self.survey.run(program, part, self.level, &Boxes { middle: middles, half: overlapping(farthest, half) });
+        Surveyed { program, part, survey: &mut self.survey }
+    }
+}
+
+/// What [`Splitter::survey`] found.
+pub struct Surveyed<'s> {
+    program: &'s Program,
+    part: &'s Arc<Part>,
+    survey: &'s mut Survey,
+}
+
+impl Surveyed<'_> {
+    /// What is known about the field's sign in a box, where it has a value.
+    pub fn occupancy(&self, place: usize) -> Occupancy {
+        match self.survey.range(self.part, place) {
+            [lo, _] if lo > 0.0 => Occupancy::Outside(lo),
+            [_, hi] if hi < 0.0 => Occupancy::Inside,
+            _ => Occupancy::Surface,
+        }
+    }
+
+    /// What matters in a box for what is wanted.
+    pub fn part(&mut self, place: usize, wanted: Wanted) -> Arc<Part> {
+        self.survey.reduce(self.program, self.part, place, wanted)
     }
 }
 
@@ -181,7 +229,7 @@ fn split(program: &Program, cell: &Cell, splitter: &mut Splitter) -> Box<[Cell]>
                 _ => Occupancy::Surface,
             };
             let part = match occupancy {
-                Occupancy::Surface => survey.reduce(program, &cell.part, place),
+                Occupancy::Surface => survey.reduce(program, &cell.part, place, Wanted::Surface),
                 _ => Arc::clone(&cell.part),
             };
             let middle = [x[place], y[place], z[place]];

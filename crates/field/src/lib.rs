@@ -50,11 +50,12 @@ pub mod shape;
 pub mod shapes;
 pub mod simd;
 mod slope;
+mod spine;
 pub mod structure;
 pub mod vector;
 
 pub use analysis::{Analysis, MAX_DEPTH, analyse, extent};
-pub use cells::{Cell, Cells, Occupancy, Slope, Splitter};
+pub use cells::{Cell, Cells, Occupancy, Slope, Splitter, Surveyed, Wanted};
 pub use contract::{Aabb, Contract, Extent, Metric};
 pub use diagnostic::{Diagnostic, Severity};
 pub use enclose::{Bounds, Encloser, ModelLanes, StretchLanes, Stretches, ZeroLanes};

@@ -11,6 +11,7 @@ use crate::kernel::{CombineFn, CombineKernels, Dual2, ModifyFn, ModifyKernels, P
 use crate::lower::Listing;
 use crate::operation::{Code, Derive, NO_REGION, Run, Step, StepId, Steps, inverse_of};
 use crate::scalar::{Constants, Dual, Interval, Scalar};
+use crate::spine::Spine;
 use crate::vector::{Vec3, spectral_norm};
 use glam::DVec3;
 use std::sync::{Arc, OnceLock};
@@ -80,7 +81,7 @@ impl Program {
     }
 
     /// All of its steps.
-    pub fn whole(&self) -> &Part {
+    pub fn whole(&self) -> &Arc<Part> {
         &self.whole
     }
 
@@ -222,11 +223,13 @@ pub struct Part {
     pub(crate) steps: Steps,
     is_measured: bool,
     is_warped: bool,
+    is_loose: bool,
     listing: OnceLock<Listing>,
     one_by_one: OnceLock<Listing>,
     kept: OnceLock<Listing>,
     zeros: OnceLock<Zeros>,
     regions: OnceLock<Vec<u32>>,
+    spine: OnceLock<Option<Spine>>,
 }
 
 impl Part {
@@ -236,15 +239,18 @@ impl Part {
         // left does not read them any more.
         let is_measured = !steps.list.iter().any(|step| matches!(step, Step::Coordinate { .. } | Step::Literal { .. }));
         let is_warped = !is_measured && !steps.list.iter().any(|step| matches!(step, Step::Surface { .. }));
+        let is_loose = steps.list.iter().any(|step| matches!(step, Step::Primitive { table, .. } if table.is_loose));
         Self {
             steps,
             is_measured,
             is_warped,
+            is_loose,
             listing: OnceLock::new(),
             one_by_one,
             kept: OnceLock::new(),
             zeros: OnceLock::new(),
             regions: OnceLock::new(),
+            spine: OnceLock::new(),
         }
     }
 
@@ -257,6 +263,11 @@ impl Part {
     /// [`Cells::slope`](crate::Cells::slope) says how steep they are.
     pub fn is_warped(&self) -> bool {
         self.is_warped
+    }
+
+    /// Whether some of its values are much smaller than distances, so that rays gain by relaxed steps.
+    pub fn is_loose(&self) -> bool {
+        self.is_loose
     }
 
     /// How many steps there are.
@@ -286,6 +297,11 @@ impl Part {
     /// The operations that keep every intermediate value.
     pub(crate) fn kept(&self) -> &Listing {
         self.kept.get_or_init(|| Listing::keeping_all(&self.steps))
+    }
+
+    /// The chain of minima that it ends with, if that is a long one.
+    pub(crate) fn spine(&self) -> Option<&Spine> {
+        self.spine.get_or_init(|| Spine::of(&self.steps)).as_ref()
     }
 
     /// What the surface is made of, if that is known to be the zeros of simpler fields.

@@ -8,13 +8,14 @@
 
 use crate::bank::{Bank, Ranges};
 use crate::formula::{Binary, Unary};
-use crate::kernel::WIDEST;
+use crate::kernel::{BATCH, WIDEST};
 use crate::operation::{Run, Step, StepId, Steps};
 use crate::program::{Part, Program};
 use crate::scalar::Interval;
 use crate::shape::{Kind, ModifyTable, Settled};
 use crate::shapes;
 use crate::simd::Level;
+use crate::spine::Excerpt;
 use std::sync::Arc;
 
 /// Boxes of one size, relative to the program's origin.
@@ -25,6 +26,15 @@ pub(crate) struct Boxes<'a> {
     pub(crate) half: [f32; 3],
 }
 
+/// What a reduced program is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// All values.
+    Values,
+    /// The surface, and the sign beside it; and the values, where they have a scale.
+    Surface,
+}
+
 /// The ranges of all values of a part over several boxes.
 #[derive(Default)]
 pub(crate) struct Survey {
@@ -32,8 +42,13 @@ pub(crate) struct Survey {
     /// Step by step, a lower and an upper end for each box.
     ends: Vec<[f32; 2]>,
     boxes: usize,
+    /// Operand by operand of the part's chain of minima, if it has one: a bit for each box where it can't be the least.
+    excluded: Vec<Bits>,
     scratch: Scratch,
 }
+
+/// One bit for each box.
+type Bits = [u64; BATCH / 64];
 
 /// What the reduction for one box works with.
 #[derive(Default)]
@@ -41,6 +56,7 @@ struct Scratch {
     settled: Vec<Settled>,
     windows: Vec<Window>,
     renamed: Vec<StepId>,
+    excerpt: Excerpt,
 }
 
 impl Survey {
@@ -74,6 +90,25 @@ impl Survey {
                 }
             }
         }
+        self.exclude(part);
+    }
+
+    /// Finds which operands of a chain of minima can't be the least, box by box: those above the largest value of the chain.
+    fn exclude(&mut self, part: &Part) {
+        self.excluded.clear();
+        let (Some(spine), Some(result)) = (part.spine(), part.steps.result) else {
+            return;
+        };
+        let boxes = self.boxes;
+        let row = |id: StepId| &self.ends[id.index() * boxes..(id.index() + 1) * boxes];
+        let ceilings: Vec<f32> = row(result).iter().map(|[_, hi]| *hi).collect();
+        self.excluded.extend(spine.entries().iter().map(|entry| {
+            let mut bits = Bits::default();
+            for (lane, ([lo, _], ceiling)) in row(entry.operand()).iter().zip(&ceilings).enumerate() {
+                bits[lane / 64] |= u64::from(lo > ceiling) << (lane % 64);
+            }
+            bits
+        }));
     }
 
     /// The range of the result over a box.
@@ -85,18 +120,34 @@ impl Survey {
     }
 
     /// The steps that matter in a box. The part itself if all of them do.
-    pub(crate) fn reduce(&mut self, program: &Program, part: &Arc<Part>, place: usize) -> Arc<Part> {
+    pub(crate) fn reduce(&mut self, program: &Program, part: &Arc<Part>, place: usize, wanted: Wanted) -> Arc<Part> {
         let Some(result) = part.steps.result else {
             return Arc::clone(part);
         };
         let list = &part.steps.list;
         let (ends, boxes) = (&self.ends, self.boxes);
         let range = |id: StepId| ends[id.index() * boxes + place];
-        let Scratch { settled, windows, renamed } = &mut self.scratch;
-        settle(program, list, range, settled);
+        let Scratch { settled, windows, renamed, excerpt } = &mut self.scratch;
         // Without a scale only the sign tells anything of what is inside, so that it does not matter how far below 0 it is.
-        let window = if part.is_measured() { Window::ALL } else { Window { floor: 0.0, ..Window::ALL } };
-        let dropped = mark(list, result, window, range, settled, windows);
+        let window = match wanted {
+            Wanted::Values => Window::ALL,
+            Wanted::Surface if part.is_measured() => Window::ALL,
+            Wanted::Surface => Window { floor: 0.0, ..Window::ALL },
+        };
+        if let Some(spine) = part.spine() {
+            let (word, bit) = (place / 64, place % 64);
+            let is_kept = |entry: usize| self.excluded[entry][word] >> bit & 1 == 0;
+            if let Some(result) = excerpt.take(&part.steps, spine, is_kept) {
+                let Excerpt { list, origin } = excerpt;
+                let range = |id: StepId| range(origin[id.index()]);
+                let dropped = mark(program, list, result, window, range, settled, windows);
+                if dropped == 0 && list.len() == part.steps.list.len() {
+                    return Arc::clone(part);
+                }
+                return Arc::new(Part::new(rebuild(list, result, settled, windows, renamed)));
+            }
+        }
+        let dropped = mark(program, list, result, window, range, settled, windows);
         if dropped == 0 {
             return Arc::clone(part);
         }
@@ -104,27 +155,28 @@ impl Survey {
     }
 }
 
-/// What each combination comes to by the ranges of its operands.
-fn settle(program: &Program, list: &[Step], range: impl Fn(StepId) -> [f32; 2], settled: &mut Vec<Settled>) {
+/// What a step comes to by the ranges of its operands.
+fn settle(program: &Program, step: &Step, range: impl Fn(StepId) -> [f32; 2]) -> Settled {
     let interval = |id: StepId| {
         let [lo, hi] = range(id);
         (lo <= hi).then(|| Interval::new(lo.into(), hi.into()))
     };
-    let judge = |step: &Step| match *step {
+    let pair = |a: StepId, b: StepId| Some((interval(a)?, interval(b)?));
+    match *step {
         Step::Combine { table, a, b, constants } => {
-            Some((table.settle)(interval(a)?, interval(b)?, &program.double[constants.range()]))
+            pair(a, b).map_or(Settled::Open, |(a, b)| (table.settle)(a, b, &program.double[constants.range()]))
         }
-        Step::Binary { op: Binary::Min, a, b } => Some(Settled::lesser(interval(a)?, interval(b)?, 0.0)),
-        Step::Binary { op: Binary::Max, a, b } => Some(Settled::lesser(-interval(a)?, -interval(b)?, 0.0)),
+        Step::Binary { op: Binary::Min, a, b } => pair(a, b).map_or(Settled::Open, |(a, b)| Settled::lesser(a, b, 0.0)),
+        Step::Binary { op: Binary::Max, a, b } => {
+            pair(a, b).map_or(Settled::Open, |(a, b)| Settled::lesser(-a, -b, 0.0))
+        }
         Step::Unary { op: Unary::Abs, from } => match range(from) {
-            [lo, _] if lo > 0.0 => Some(Settled::First),
-            [_, hi] if hi < 0.0 => Some(Settled::NotSecond),
-            _ => None,
+            [lo, _] if lo > 0.0 => Settled::First,
+            [_, hi] if hi < 0.0 => Settled::NotSecond,
+            _ => Settled::Open,
         },
-        _ => None,
-    };
-    settled.clear();
-    settled.extend(list.iter().map(|step| judge(step).unwrap_or(Settled::Open)));
+        _ => Settled::Open,
+    }
 }
 
 /// The operands of a step that picks one of two values, and whether it picks the lesser or the greater.
@@ -163,20 +215,23 @@ impl Window {
     }
 }
 
-/// Finds what the result still depends on, and settles choices of which an operand is too large or too small to matter in
-/// the end. Returns how many steps don't matter. Values of the result outside `window` are as good as any others on that
-/// side of it.
+/// Finds what the result still depends on, and settles choices: by their own operands, and those of which an operand is too
+/// large or too small to matter in the end. Returns how many steps don't matter. Values of the result outside `window` are as
+/// good as any others on that side of it.
 ///
 /// A chain of minima is settled from its end: an operand above the largest value that the whole chain can have is not
 /// needed, even if it is not above the operands before it. Chains of maxima likewise.
 fn mark(
+    program: &Program,
     list: &[Step],
     result: StepId,
     window: Window,
     range: impl Fn(StepId) -> [f32; 2],
-    settled: &mut [Settled],
+    settled: &mut Vec<Settled>,
     windows: &mut Vec<Window>,
 ) -> usize {
+    settled.clear();
+    settled.resize(list.len(), Settled::Open);
     windows.clear();
     windows.resize(list.len(), Window::UNREAD);
     windows[StepId::POINT.index()] = Window::ALL;
@@ -189,6 +244,7 @@ fn mark(
         }
         needed += 1;
         let step = &list[index];
+        settled[index] = settle(program, step, &range);
         let mut window = if let Step::Surface { .. } = step { own } else { Window::ALL };
         if let Some((a, b, choice)) = choice(step) {
             let [lo, hi] = range(StepId(index as u32));

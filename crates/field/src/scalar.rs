@@ -58,7 +58,8 @@ pub trait Scalar:
     /// `if mask { yes } else { no }`, lane by lane.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
-    /// Whether any lane of the mask may be true. Only [`Scalar::iterate`] needs it, to leave its loop early.
+    /// Whether any lane of the mask may be true: to leave the loop of [`Scalar::iterate`] early, or to pass over a long
+    /// computation of which [`Scalar::select`] would take nothing.
     fn any(mask: Self::Mask) -> bool;
 
     /// The square root; the argument must not be negative.

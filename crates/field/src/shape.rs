@@ -54,6 +54,8 @@ pub enum ParamKind {
     Positive,
     /// A factor other than 0.
     Factor,
+    /// A whole number, at least the first and at most the second one.
+    Count(u32, u32),
     /// An angle: degrees in files, radians inside.
     Angle,
     /// One of several names, stored as its index. Files that were written with numbers may use those instead, where
@@ -73,6 +75,8 @@ pub enum ParamKind {
     Angles,
     /// A quaternion x, y, z, w other than 0; its length does not matter.
     Quaternion,
+    /// A quaternion by its real part and those along i, j and k.
+    Quadruple,
     /// A region of space: stored as 0 for all of it, or 1 and a sphere's radius, or 2 and a box's three full edge lengths;
     /// always four numbers.
     Region,
@@ -88,11 +92,12 @@ impl ParamKind {
             | Self::Length
             | Self::Positive
             | Self::Factor
+            | Self::Count(..)
             | Self::Angle
             | Self::Choice(_)
             | Self::Flag => 1,
             Self::Vector | Self::Direction | Self::Size | Self::Factors | Self::Angles => 3,
-            Self::Quaternion | Self::Region | Self::HalfSpaces => 4,
+            Self::Quaternion | Self::Quadruple | Self::Region | Self::HalfSpaces => 4,
         }
     }
 
@@ -111,6 +116,12 @@ impl ParamKind {
             Self::Length if value[0] < 0.0 => Some(format!("must not be negative, but is {}", brief(value[0]))),
             Self::Positive if value[0] <= 0.0 => Some(format!("must be above 0, but is {}", brief(value[0]))),
             Self::Factor if value[0] == 0.0 => Some("must not be 0: it would flatten the shape".into()),
+            Self::Count(..) if value[0].fract() != 0.0 => {
+                Some(format!("must be a whole number, but is {}", brief(value[0])))
+            }
+            Self::Count(least, most) if !(f64::from(least)..=f64::from(most)).contains(&value[0]) => {
+                Some(format!("must be from {least} to {most}, but is {}", brief(value[0])))
+            }
             Self::Size if value.iter().any(|&v| v <= 0.0) => Some("must be above 0 in every direction".into()),
             Self::Factors if value.contains(&0.0) => Some("must not be 0 in any direction".into()),
             Self::Direction if length < SHORTEST_DIRECTION => Some("must not be the zero vector".into()),
@@ -160,6 +171,10 @@ pub const AXIS: Param =
 pub trait Primitive: 'static {
     /// Description and parameters.
     const ABOUT: About;
+
+    /// Whether its values are much smaller than the distance almost everywhere, so that rays do well to step farther and
+    /// to make sure afterwards that they missed nothing.
+    const IS_LOOSE: bool = false;
 
     /// A fault that no single parameter shows, as a sentence.
     ///
@@ -373,6 +388,7 @@ pub struct FormulaParam {
 #[derive(Debug)]
 #[allow(missing_docs, reason = "documented at the trait's items of the same names")]
 pub struct PrimitiveTable {
+    pub is_loose: bool,
     pub check: fn(&[f64]) -> Result<(), String>,
     pub prepare: fn(&[f64]) -> Vec<f64>,
     pub contract: fn(&[f64]) -> Contract,
@@ -434,6 +450,7 @@ impl Shape {
         Self {
             about: P::ABOUT,
             kind: Kind::Primitive(PrimitiveTable {
+                is_loose: P::IS_LOOSE,
                 check: P::check,
                 prepare: P::prepare,
                 contract: P::contract,

@@ -14,12 +14,15 @@ pub mod difference;
 pub mod displace;
 pub mod ellipsoid;
 pub mod ellipsoid_bound;
+mod escape;
 pub mod formula;
 pub mod intersection;
+pub mod mandelbulb;
 pub mod offset;
 pub mod paint;
 pub mod plane;
 mod polynomial;
+pub mod quaternion_julia;
 pub mod reflect;
 pub mod rotate;
 pub mod rotate_euler;
@@ -52,9 +55,11 @@ pub use ellipsoid::*;
 pub use ellipsoid_bound::*;
 pub use formula::*;
 pub use intersection::*;
+pub use mandelbulb::*;
 pub use offset::*;
 pub use paint::*;
 pub use plane::*;
+pub use quaternion_julia::*;
 pub use reflect::*;
 pub use rotate::*;
 pub use rotate_euler::*;
@@ -91,9 +96,11 @@ pub static ALL: &[&Shape] = &[
     &ELLIPSOID_BOUND,
     &FORMULA,
     &INTERSECTION,
+    &MANDELBULB,
     &OFFSET,
     &PAINT,
     &PLANE,
+    &QUATERNION_JULIA,
     &REFLECT,
     &ROTATE,
     &ROTATE_EULER,

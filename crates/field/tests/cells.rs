@@ -75,6 +75,24 @@ fn what_is_left_computes_the_same() {
 }
 
 #[test]
+fn long_unions_compute_the_same() {
+    let mut random = Random::new(29);
+    for _ in 0..6 {
+        // Operands of one step and of many, so that a chain of minima has gaps of all lengths.
+        let mut objects: Vec<Field> = Vec::new();
+        for index in 0..50 {
+            let depth = 1 + index % 3;
+            objects.push(common::tree(depth, &mut random).at(random.point(2.0).to_array()));
+        }
+        check_field(&objects, &mut random);
+        let nested: Vec<Field> = objects.chunks(5).map(|five| union(five.to_vec())).collect();
+        check_field(&nested, &mut random);
+        check_field(&[union(objects.clone()).rotate([1.0, 2.0, 3.0], 30.0)], &mut random);
+        check_field(&[union(objects) - sphere(1.0)], &mut random);
+    }
+}
+
+#[test]
 fn every_shape_survives_pruning() {
     let mut random = Random::new(5);
     for (_, _, field) in common::every_shape(3) {

@@ -44,9 +44,10 @@ fn the_lipschitz_constant_is_not_lazy() {
         let mut random = Random::new(8);
         let largest = (0..400).map(|_| program.gradient(random.point(2.0)).1.length()).fold(0.0, f64::max);
         // An operator knows its child's constant, not in which direction the child is steepest: a plane may stand so that
-        // stretching flattens it. Trees may hide their steepest part altogether.
-        let flat =
-            ["plane", "sheet"].contains(&field.node().children.first().map_or("", |c| c.node().shape.about.name));
+        // stretching flattens it. A fractal is steep far outside alone, where stretching may take it out of sight. Trees may
+        // hide their steepest part altogether.
+        let child = field.node().children.first().map_or("", |c| c.node().shape.about.name);
+        let flat = ["plane", "sheet", "quaternion_julia", "mandelbulb"].contains(&child);
         let excused = name.starts_with("tree") || (name.starts_with("stretch") && flat);
         assert!(excused || lipschitz <= 1.25 * largest, "{name}: {lipschitz} for {largest}");
     }
@@ -175,6 +176,14 @@ fn the_extent_of_primitives_under_maps_is_tight() {
     for (name, seed, field) in every_shape(4) {
         let is_primitive = field.node().children.is_empty();
         if !is_primitive && !placed.contains(&name) && name != "paint" {
+            continue;
+        }
+        // Of orbits only the ball is known that none of them comes back to.
+        let mut primitive = field.clone();
+        while let Some(child) = primitive.node().children.first().cloned() {
+            primitive = child;
+        }
+        if ["quaternion_julia", "mandelbulb"].contains(&primitive.node().shape.about.name) {
             continue;
         }
         let Extent::Finite(aabb) = extent(&field) else {

@@ -449,25 +449,26 @@ fn graphs_are_read() {
     ] {
         assert_eq!(value(operation, a, b), result, "{operation} of {a} and {b}");
     }
-    for (text, line, message) in [
-        ("", 1, "no operation"),
-        ("# nothing\n\n", 2, "no operation"),
-        ("a", 1, "followed by no operation"),
-        ("a var-x\nb sqrt", 2, "followed by 1 words, but here by 0"),
-        ("a var-x\nb add a", 2, "followed by 2 words"),
-        ("a var-x a", 1, "followed by 0 words"),
-        ("a var-x\nb sqrt c", 2, "no `c` before"),
-        ("b sqrt b", 1, "no `b` before"),
-        ("a var-x\na var-y", 2, "given twice"),
-        ("a var-x\n\nb sqroot a", 3, "did you mean `sqrt`"),
-        ("a frobnicate", 1, "no operation `frobnicate`"),
-        ("a const", 1, "followed by 1 words"),
-        ("a const one", 1, "no finite number"),
-        ("a const inf", 1, "no finite number"),
+    for (text, line, column, message) in [
+        ("", 1, 1, "no operation"),
+        ("# nothing\n\n", 2, 1, "no operation"),
+        ("a", 1, 1, "followed by no operation"),
+        ("a var-x\nb sqrt", 2, 3, "followed by 1 word, but here by 0"),
+        ("a var-x\nb add a", 2, 3, "followed by 2 words"),
+        ("a var-x a", 1, 9, "followed by 0 words"),
+        ("a var-x\nb  sqrt c", 2, 9, "no `c` before"),
+        ("b sqrt b", 1, 8, "no `b` before"),
+        ("a var-x\na var-y", 2, 1, "given twice"),
+        ("ä var-x\n\nü sqroot ä", 3, 3, "did you mean `sqrt`"),
+        ("a frobnicate", 1, 3, "no operation `frobnicate`"),
+        ("a const", 1, 3, "followed by 1 word"),
+        ("a const one", 1, 9, "no finite number"),
+        ("\ta const inf", 1, 10, "no finite number"),
     ] {
         let error = Formula::from_vm(text).expect_err(text);
-        assert_eq!(error.line, line, "{text}: {error}");
-        assert!(error.message.contains(message), "{text}: {error}");
+        assert_eq!((error.line, error.column), (line, column), "{text}: {error}");
+        assert!(error.to_string().contains(message), "{text}: {error}");
+        assert!(text.get(error.span.clone()).is_some(), "{text}: {:?}", error.span);
     }
 }
 

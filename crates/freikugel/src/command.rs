@@ -57,14 +57,14 @@ enum Command {
 /// The scene to work on.
 #[derive(Debug, clap::Args)]
 struct SceneFile {
-    /// The scene file, or - for standard input.
+    /// The scene file, or - for standard input; or a model, whose file is called `.vm`.
     scene: PathBuf,
 }
 
 /// The scenes to work on.
 #[derive(Debug, clap::Args)]
 struct SceneFiles {
-    /// The scene files, or - for standard input.
+    /// The scene files, or - for standard input; or models, whose files are called `.vm`.
     #[arg(required = true)]
     scenes: Vec<PathBuf>,
 }

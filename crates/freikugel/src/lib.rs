@@ -37,6 +37,7 @@
 #![forbid(unsafe_code)]
 
 pub mod files;
+pub mod model;
 
 pub use freikugel_field as field;
 pub use freikugel_render as render;

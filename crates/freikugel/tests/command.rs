@@ -489,3 +489,78 @@ fn wrong_sweeps_are_explained_before_anything_is_written() {
     assert_eq!(code(&output), 2);
     assert!(stderr(&output).contains("the suffix must be .png"), "{}", stderr(&output));
 }
+
+/// A ball as an expression graph.
+const BALL_GRAPH: &str = "# a ball\n_0 var-x\n_1 square _0\n_2 var-y\n_3 square _2\n_4 var-z\n_5 square _4\n\
+                          _6 add _1 _3\n_7 add _5 _6\n_8 sqrt _7\n_9 const 0.75\n_a sub _8 _9\n";
+
+/// The right half of the plane.
+const HALF_GRAPH: &str = "a var-x\nb neg a\n";
+
+/// The bytes of a picture's pixels, and its width.
+fn pixels(path: &Path) -> (Vec<u8>, u32) {
+    let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(path).expect("there")));
+    let mut reader = decoder.read_info().expect("a picture");
+    let mut bytes = vec![0; reader.output_buffer_size().expect("it fits")];
+    let info = reader.next_frame(&mut bytes).expect("pixels");
+    (bytes, info.width)
+}
+
+#[test]
+fn a_graph_with_z_is_rendered_as_a_solid() {
+    let folder = Folder::new();
+    folder.write("ball.vm", BALL_GRAPH);
+    let size = ["--width", "60", "--height", "40", "--samples", "1", "--stats", "stats.json"];
+    let output = folder.run(&[&["render", "ball.vm"], &size[..]].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let stats: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.path("stats.json")).expect("there")).expect("JSON");
+    let hits = stats["hits"].as_u64().expect("a number");
+    assert!((100..1200).contains(&hits), "{hits} pixels of 2400 show the ball");
+    assert_eq!(stats["unresolved"]["pixels"], 0);
+    assert!(folder.path("ball.png").exists());
+    let info = folder.run(&["info", "ball.vm"]);
+    assert!(stdout(&info).contains("box (-1.0000, -1.0000, -1.0000) to (1.0000, 1.0000, 1.0000)"), "{}", stdout(&info));
+    assert_eq!(code(&folder.run(&["check", "ball.vm"])), 0);
+}
+
+#[test]
+fn a_graph_without_z_is_rendered_as_a_region_of_the_plane() {
+    let folder = Folder::new();
+    folder.write("half.vm", HALF_GRAPH);
+    let output = folder.run(&["render", "half.vm", "--width", "50"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stderr(&output).contains("half.png: 50 x 50"), "{}", stderr(&output));
+    let (bytes, width) = pixels(&folder.path("half.png"));
+    let (light, dark) = ([0xf4, 0xf1, 0xea], [0x2b, 0x2f, 0x36]);
+    for (index, pixel) in bytes.chunks(3).enumerate() {
+        assert_eq!(pixel, if index as u32 % width < width / 2 { light } else { dark }, "pixel {index}");
+    }
+    // Any threads, any crop: the same bytes.
+    let args = ["render", "half.vm", "--width", "51", "--height", "40", "-o"];
+    assert_eq!(code(&folder.run(&[&args[..], &["whole.png", "--threads", "1"]].concat())), 0);
+    assert_eq!(code(&folder.run(&[&args[..], &["cut.png", "--threads", "2", "--crop", "20,7,11,5"]].concat())), 0);
+    let (whole, width) = pixels(&folder.path("whole.png"));
+    let (cut, _) = pixels(&folder.path("cut.png"));
+    for (row, line) in cut.chunks(11 * 3).enumerate() {
+        let start = ((7 + row) * width as usize + 20) * 3;
+        assert_eq!(line, &whole[start..start + 11 * 3], "row {row}");
+    }
+    assert_eq!(code(&folder.run(&["check", "half.vm"])), 0);
+    assert!(stdout(&folder.run(&["info", "half.vm"])).contains("f=\"-x\""));
+}
+
+#[test]
+fn mistakes_in_graphs_are_shown_with_their_places() {
+    let folder = Folder::new();
+    folder.write("bad.vm", "_0 var-x\n_1 sqroot _0\n");
+    for command in ["render", "check", "info"] {
+        let output = folder.run(&[command, "bad.vm"]);
+        assert_eq!(code(&output), 1);
+        let text = stderr(&output);
+        assert!(text.contains("bad.vm:2:4"), "{text}");
+        assert!(text.contains("there is no operation `sqroot`") && text.contains("did you mean `sqrt`?"), "{text}");
+        assert!(text.contains("bad.vm has 1 error"), "{text}");
+    }
+    assert_eq!(folder.names(), ["bad.vm"]);
+}

@@ -13,8 +13,8 @@ use crate::wave::Way;
 use freikugel_field::ray::ExactRay;
 use freikugel_field::simd::{self, Level};
 use freikugel_field::{
-    Aabb, Cells, Contract, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Program, Structure, analyse,
-    find_extent,
+    Aabb, Cells, Contract, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Program, Severity, Structure,
+    analyse, find_extent,
 };
 use freikugel_scene::{Camera, Material, Method, Scene, Tracer};
 use glam::DVec3;
@@ -110,7 +110,16 @@ impl<'s> Renderer<'s> {
     /// All faults of the fields, or the first other reason why the scene can't be rendered.
     pub fn new(scene: &'s Scene) -> Result<Self, PrepareError> {
         let fields: Vec<Field> = scene.objects.iter().map(|object| object.shape.clone()).collect();
-        let everything = Structure::compile(&fields).map_err(PrepareError::Fields)?;
+        let mut analyses = Vec::with_capacity(fields.len());
+        let mut diagnostics = Vec::new();
+        for field in &fields {
+            let (analysis, found) = analyse(field);
+            diagnostics.extend(found);
+            analyses.extend(analysis);
+        }
+        if diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
+            return Err(PrepareError::Fields(diagnostics));
+        }
         check_tracing(scene)?;
 
         let mut marched = Vec::new();
@@ -121,8 +130,7 @@ impl<'s> Renderer<'s> {
         let mut contracts = Vec::new();
         let mut unscaled = Vec::new();
         let method = scene.tracer.method;
-        for (index, object) in scene.objects.iter().enumerate() {
-            let mut analysis = analyse(&object.shape).0.expect("faults were found when compiling");
+        for (index, (object, analysis)) in scene.objects.iter().zip(&mut analyses).enumerate() {
             contracts.push(analysis.contract);
             let exact_ray = ExactRay::of(&object.shape);
             if analysis.extent == Extent::Unbounded && exact_ray.is_none() {
@@ -190,6 +198,7 @@ impl<'s> Renderer<'s> {
             .windows(2)
             .all(|pair| std::ptr::eq(pair[0].material, pair[1].material) && pair[0].is_sheet == pair[1].is_sheet);
         let is_all_marched = marched.len() == scene.objects.len();
+        let everything = (!is_all_marched).then(|| Structure::compile(&fields)).transpose();
         Ok(Self {
             scene,
             marched: structure,
@@ -198,7 +207,7 @@ impl<'s> Renderer<'s> {
             scale: if scale.is_finite() { scale } else { 1.0 },
             bounds,
             exact,
-            everything: (!is_all_marched).then_some(everything),
+            everything: everything.map_err(PrepareError::Fields)?,
             extent: match extent {
                 Extent::Finite(extent) => Some(extent),
                 Extent::Empty | Extent::Unbounded => None,

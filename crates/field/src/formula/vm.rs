@@ -9,19 +9,30 @@ use super::names::{self, closest};
 use super::{Binary, Formula, MOST_TERMS, Term, TermId, Unary};
 use std::collections::HashMap;
 use std::fmt::{self, Write};
+use std::ops::Range;
 
 /// A mistake in an expression graph.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VmError {
     /// The line it is in, from 1.
     pub line: usize,
+    /// The character of the line that it starts with, from 1.
+    pub column: usize,
     /// What it is, as a sentence without the full stop.
     pub message: String,
+    /// What to do about it.
+    pub hint: Option<String>,
+    /// The place, as a range of bytes in the text.
+    pub span: Range<usize>,
 }
 
 impl fmt::Display for VmError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}: {}", self.line, self.message)
+        write!(f, "line {}, column {}: {}", self.line, self.column, self.message)?;
+        match &self.hint {
+            Some(hint) => write!(f, " ({hint})"),
+            None => Ok(()),
+        }
     }
 }
 
@@ -110,27 +121,35 @@ impl Formula {
         let mut known: HashMap<&str, TermId> = HashMap::new();
         let mut last = None;
         for (line, number) in text.lines().zip(1..) {
-            let error = |message: String| VmError { line: number, message };
             let code = line.split('#').next().unwrap_or_default();
             let mut words = code.split_whitespace();
             let Some(name) = words.next() else {
                 continue;
             };
-            let op = words.next().ok_or_else(|| error(format!("`{name}` is followed by no operation")))?;
+            let error = |fault: Fault<'_>| VmError::new(text, number, fault);
+            let op = words.next().ok_or_else(|| {
+                error(Fault { word: name, message: format!("`{name}` is followed by no operation"), hint: None })
+            })?;
             let operands: Vec<&str> = words.collect();
             let id = operation(&mut builder, &known, op, &operands).map_err(error)?;
             if known.insert(name, id).is_some() {
-                return Err(error(format!("`{name}` is given twice")));
+                return Err(error(Fault { word: name, message: format!("`{name}` is given twice"), hint: None }));
             }
             if builder.len() > MOST_TERMS {
-                return Err(error(format!("the graph has more than {MOST_TERMS} operations")));
+                let message = format!("the graph has more than {MOST_TERMS} operations");
+                return Err(error(Fault { word: name, message, hint: None }));
             }
             last = Some(id);
         }
-        match last {
-            Some(result) => Ok(Self::build(&builder, result)),
-            None => Err(VmError { line: text.lines().count().max(1), message: "there is no operation".into() }),
-        }
+        last.map(|result| Self::build(&builder, result)).ok_or_else(|| {
+            let lines = text.lines().count().max(1);
+            let hint = Some("for instance `_0 var-x`".into());
+            VmError::new(
+                text,
+                lines,
+                Fault { word: &text[text.len()..], message: "there is no operation".into(), hint },
+            )
+        })
     }
 
     /// The formula as an expression graph.
@@ -154,15 +173,41 @@ impl Formula {
     }
 }
 
+/// What is wrong in a line, and the word that it is about, which is part of the text.
+struct Fault<'t> {
+    word: &'t str,
+    message: String,
+    hint: Option<String>,
+}
+
+impl VmError {
+    fn new(text: &str, line: usize, Fault { word, message, hint }: Fault<'_>) -> Self {
+        let start = word.as_ptr().addr() - text.as_ptr().addr();
+        let line_start = text[..start].rfind('\n').map_or(0, |at| at + 1);
+        let column = text[line_start..start].chars().count() + 1;
+        Self { line, column, message, hint, span: start..start + word.len() }
+    }
+}
+
 /// One line of a graph.
-fn operation(b: &mut Builder, known: &HashMap<&str, TermId>, op: &str, operands: &[&str]) -> Result<TermId, String> {
+fn operation<'t>(
+    b: &mut Builder,
+    known: &HashMap<&str, TermId>,
+    op: &'t str,
+    operands: &[&'t str],
+) -> Result<TermId, Fault<'t>> {
+    let fault = |word: &'t str, message: String| Fault { word, message, hint: None };
     let count = |wanted: usize| match operands.len() {
         found if found == wanted => Ok(()),
-        found => Err(format!("`{op}` is followed by {wanted} words, but here by {found}")),
+        found => {
+            let word = operands.get(wanted).copied().unwrap_or(op);
+            let words = if wanted == 1 { "word" } else { "words" };
+            Err(fault(word, format!("`{op}` is followed by {wanted} {words}, but here by {found}")))
+        }
     };
     let operand = |place: usize| {
         let name = operands[place];
-        known.get(name).copied().ok_or_else(|| format!("there is no `{name}` before this line"))
+        known.get(name).copied().ok_or_else(|| fault(name, format!("there is no `{name}` before this line")))
     };
     if let Some(axis) = INPUTS.iter().position(|&input| input == op) {
         count(0)?;
@@ -171,7 +216,7 @@ fn operation(b: &mut Builder, known: &HashMap<&str, TermId>, op: &str, operands:
         count(1)?;
         match operands[0].parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(b.literal(number)),
-            _ => Err(format!("`{}` is no finite number", operands[0])),
+            _ => Err(fault(operands[0], format!("`{}` is no finite number", operands[0]))),
         }
     } else if let Some((_, make)) = UNARY.iter().find(|unary| unary.0 == op) {
         count(1)?;
@@ -181,10 +226,9 @@ fn operation(b: &mut Builder, known: &HashMap<&str, TermId>, op: &str, operands:
         Ok(make(b, operand(0)?, operand(1)?))
     } else {
         let others = UNARY.iter().map(|unary| unary.0).chain(BINARY.iter().map(|binary| binary.0));
-        Err(match closest(op, INPUTS.into_iter().chain(["const"]).chain(others)) {
-            Some(guess) => format!("there is no operation `{op}`; did you mean `{guess}`?"),
-            None => format!("there is no operation `{op}`"),
-        })
+        let guess = closest(op, INPUTS.into_iter().chain(["const"]).chain(others));
+        let hint = guess.map(|guess| format!("did you mean `{guess}`?"));
+        Err(Fault { word: op, message: format!("there is no operation `{op}`"), hint })
     }
 }
 

@@ -51,6 +51,9 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
         ParamKind::Length => push(if random.unit() < 0.3 { 0.0 } else { random.range(0.1, 0.4) }),
         ParamKind::Positive => push(random.range(0.2, 1.2)),
         ParamKind::Factor => push(sign * random.range(0.5, 2.0)),
+        ParamKind::Count(least, most) => {
+            push(f64::from(least + random.below((most.min(least + 9) - least) as usize) as u32))
+        }
         ParamKind::Angle => push(random.range(-4.0, 4.0)),
         ParamKind::Choice(names) => push(random.below(names.len()) as f64),
         ParamKind::Flag => push(random.below(2) as f64),
@@ -60,6 +63,7 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
         ParamKind::Factors => (0..3).for_each(|_| push(sign * random.range(0.5, 2.0))),
         ParamKind::Angles => (0..3).for_each(|_| push(random.range(-4.0, 4.0))),
         ParamKind::Quaternion => (0..4).for_each(|_| push(random.range(-1.0, 1.0))),
+        ParamKind::Quadruple => (0..4).for_each(|_| push(random.range(-0.6, 0.6))),
         ParamKind::Region => unreachable!("formulas have tests of their own"),
         ParamKind::HalfSpaces => {
             let tilt = DMat3::from_quat(DQuat::from_axis_angle(random.direction(), random.range(0.0, 3.0)));
@@ -177,6 +181,8 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             at(low) < r * r
         }
         ("ellipsoid" | "ellipsoid_bound", [x, y, z]) => (p / DVec3::new(*x, *y, *z)).length_squared() < 1.0,
+        ("quaternion_julia", args) => julia_contains(args, p),
+        ("mandelbulb", args) => mandelbulb_contains(args, p),
         ("convex_polyhedron" | "convex_polyhedron_bound", planes) => {
             planes.chunks(4).all(|h| DVec3::from_slice(h).normalize().dot(p) < h[3])
         }
@@ -219,4 +225,60 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
 
 fn all(answers: impl Iterator<Item = Option<bool>>) -> Option<Vec<bool>> {
     answers.collect()
+}
+
+/// Whether the orbit of the quaternion (p, w) under q^k + c stays within the bailout radius, by quaternion products.
+pub(crate) fn julia_contains(args: &[f64], p: DVec3) -> bool {
+    let (c, power, iterations, bailout, w) = (&args[..4], args[4], args[5], args[6], args[7]);
+    let length = |q: &[f64]| q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let bailout = bailout.max(escape_radius(power, length(c)));
+    let start = [p.x, p.y, p.z, w];
+    let mut q = start;
+    for _ in 0..iterations as u32 {
+        let base = q;
+        for _ in 1..power as u32 {
+            let [a, i, j, k] = q;
+            let [b, x, y, z] = base;
+            q = [
+                a * b - i * x - j * y - k * z,
+                a * x + i * b + j * z - k * y,
+                a * y - i * z + j * b + k * x,
+                a * z + i * y - j * x + k * b,
+            ];
+        }
+        q = std::array::from_fn(|part| q[part] + c[part]);
+        // Beyond the bailout radius there is no way back.
+        if length(&q) > bailout {
+            return false;
+        }
+    }
+    length(&start) <= bailout
+}
+
+/// Whether the orbit of p under the power that multiplies polar angles, plus p, stays within the bailout radius.
+pub(crate) fn mandelbulb_contains(args: &[f64], p: DVec3) -> bool {
+    let (power, iterations, bailout) = (args[0], args[1], args[2]);
+    let bailout = bailout.max(2.0_f64.powf(1.0 / (power - 1.0)));
+    let mut q = p;
+    for _ in 0..iterations as u32 {
+        let (r, polar, around) = (q.length(), q.x.hypot(q.y).atan2(q.z) * power, q.y.atan2(q.x) * power);
+        let direction = DVec3::new(polar.sin() * around.cos(), polar.sin() * around.sin(), polar.cos());
+        q = direction * r.powf(power) + p;
+    }
+    // Also where it is not a number any more.
+    q.length() <= bailout
+}
+
+/// The least r with r^k - c >= r beyond it.
+fn escape_radius(power: f64, c: f64) -> f64 {
+    let (mut low, mut high) = (1.0_f64, 4.0_f64);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if middle.powf(power) - c < middle {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
 }

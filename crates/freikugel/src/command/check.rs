@@ -7,7 +7,7 @@ use std::path::PathBuf;
 pub(super) fn run(scenes: &[PathBuf]) -> Result<(), Failure> {
     let mut broken = 0;
     for path in scenes {
-        match input::scene(path) {
+        match input::read(path) {
             Ok(_) => {}
             Err(failure) => {
                 broken += 1;

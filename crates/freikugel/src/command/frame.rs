@@ -25,6 +25,11 @@ pub(super) struct Frame {
 }
 
 impl Frame {
+    /// The side of the picture, if only one was given.
+    pub(super) fn only_side(&self) -> Option<u32> {
+        self.width.xor(self.height)
+    }
+
     /// The options with what was asked for.
     pub(super) fn over(&self, mut options: Options) -> Options {
         options.width = self.width.unwrap_or(options.width);

@@ -89,6 +89,7 @@ fn values(param: &Param) -> String {
         ParamKind::Length => "a length, 0 or more".into(),
         ParamKind::Positive => "a length above 0".into(),
         ParamKind::Factor => "a number other than 0".into(),
+        ParamKind::Count(least, most) => format!("a whole number from {least} to {most}"),
         ParamKind::Angle => "degrees".into(),
         ParamKind::Choice(names) => format!("one of {}", names.join(", ")),
         ParamKind::Flag => "true or false".into(),
@@ -98,6 +99,7 @@ fn values(param: &Param) -> String {
         ParamKind::Factors => "[x, y, z], none of them 0".into(),
         ParamKind::Angles => "[x, y, z] in degrees".into(),
         ParamKind::Quaternion => "[x, y, z, w]".into(),
+        ParamKind::Quadruple => "[real, i, j, k]".into(),
         ParamKind::Region => "{ \"sphere\": radius } or { \"box\": size }".into(),
         ParamKind::HalfSpaces => "a list of [x, y, z, d]".into(),
     };

@@ -1,6 +1,7 @@
 //! `freikugel info`: what a scene is made of.
 
-use super::{Failure, input, print};
+use super::input::{self, Input};
+use super::{Failure, print};
 use freikugel::field::shape::FormulaParam;
 use freikugel::field::{
     Contract, Extent, Field, Formula, Limits, Metric, ParamKind, Structure, analyse, explore, extent, find_extent,
@@ -9,10 +10,15 @@ use freikugel::scene::Scene;
 use std::fmt::Write;
 use std::path::Path;
 
+/// How many characters of a formula are shown: those of models can fill many pages.
+const LONGEST_FORMULA: usize = 200;
+
 /// Prints the scene's objects with their trees, and the sums.
 pub(super) fn run(path: &Path) -> Result<(), Failure> {
-    let scene = input::scene(path)?;
-    print(&describe(&scene))
+    match input::read(path)? {
+        Input::Scene(scene) => print(&describe(&scene)),
+        Input::Region(region) => print(&describe(&Scene::of(region.field()))),
+    }
 }
 
 fn describe(scene: &Scene) -> String {
@@ -58,7 +64,15 @@ fn tree(field: &Field, depth: usize, scene: &Scene, text: &mut String) {
     let about = &node.shape.about;
     let _ = write!(text, "{:indent$}{}", "", about.name, indent = 2 * depth);
     for (param, formula) in about_formulas(field) {
-        let _ = write!(text, " {}={:?}", param.name, formula.text());
+        let written = formula.text();
+        match written.char_indices().nth(LONGEST_FORMULA) {
+            None => {
+                let _ = write!(text, " {}={written:?}", param.name);
+            }
+            Some((end, _)) => {
+                let _ = write!(text, " {}={:?}... ({} operations)", param.name, &written[..end], formula.terms().len());
+            }
+        }
     }
     for (index, param) in about.params.iter().enumerate() {
         let _ = write!(text, " {}={}", param.name, written(param.kind, &node.argument(index)));

@@ -1,7 +1,8 @@
-//! Reading scene files, whatever they turn out to be.
+//! Reading scene files and models, whatever they turn out to be.
 
 use super::Failure;
-use freikugel::scene::{Diagnostic, Reading, Scene, Severity, read, report};
+use freikugel::model::{self, Model, Region};
+use freikugel::scene::{self, Diagnostic, Reading, Scene, Severity, report};
 use std::io::{IsTerminal, Read};
 use std::path::Path;
 
@@ -26,9 +27,39 @@ fn text_of(path: &Path) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|_| "it is not text in UTF-8, hence no scene file".into())
 }
 
-/// Reads a scene, printing all diagnostics to standard error.
+/// What a file holds.
+pub(super) enum Input {
+    /// A scene, or a solid made one.
+    Scene(Box<Scene>),
+    /// A region of the plane.
+    Region(Region),
+}
+
+/// Reads a scene or, if the file is called `.vm`, a model, printing all diagnostics to standard error.
+pub(super) fn read(path: &Path) -> Result<Input, Failure> {
+    let (text, name) = (text(path)?, name(path));
+    if !path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("vm")) {
+        return parsed(&text, &name).map(|scene| Input::Scene(Box::new(scene)));
+    }
+    match model::read(&text) {
+        Ok(Model::Solid(scene)) => Ok(Input::Scene(scene)),
+        Ok(Model::Region(region)) => Ok(Input::Region(region)),
+        Err(fault) => {
+            show(&text, &name, std::slice::from_ref(&fault));
+            Err(faulty(&name, std::slice::from_ref(&fault)))
+        }
+    }
+}
+
+/// Reads a scene, or a model that is a solid.
 pub(super) fn scene(path: &Path) -> Result<Scene, Failure> {
-    parsed(&text(path)?, &name(path))
+    match read(path)? {
+        Input::Scene(scene) => Ok(*scene),
+        Input::Region(_) => Err(Failure::Input(format!(
+            "{} is a region of the plane, through which no rays are traced: its graph does not use z",
+            name(path)
+        ))),
+    }
 }
 
 /// Reads a scene file's text.
@@ -43,12 +74,15 @@ pub(super) fn name(path: &Path) -> String {
 
 /// The scene of a text, printing all diagnostics to standard error.
 pub(super) fn parsed(text: &str, name: &str) -> Result<Scene, Failure> {
-    let Reading { scene, diagnostics } = read(text);
+    let Reading { scene, diagnostics } = scene::read(text);
     show(text, name, &diagnostics);
-    scene.ok_or_else(|| {
-        let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
-        Failure::Input(format!("{name} has {errors} error{}", if errors == 1 { "" } else { "s" }))
-    })
+    scene.ok_or_else(|| faulty(name, &diagnostics))
+}
+
+/// Says how many errors a file has.
+fn faulty(name: &str, diagnostics: &[Diagnostic]) -> Failure {
+    let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
+    Failure::Input(format!("{name} has {errors} error{}", if errors == 1 { "" } else { "s" }))
 }
 
 /// Prints diagnostics to standard error.

@@ -1,12 +1,14 @@
-//! `freikugel render`: a picture of a scene.
+//! `freikugel render`: a picture of a scene or model.
 
+use super::Failure;
 use super::frame::{Frame, Samples, Watch, cannot_render, cannot_write, open, output_path, parse_method};
+use super::input::{self, Input};
 use super::interrupt::Interrupt;
-use super::{Failure, input};
 use freikugel::files::Format;
+use freikugel::model::Region;
 use freikugel::render::{Options, Rect, Rendered, Stats, render};
 use freikugel::scene::color::from_hex;
-use freikugel::scene::{Method, Rgb};
+use freikugel::scene::{Method, Picture, Rgb};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -16,13 +18,14 @@ Examples:
   freikugel render cup.json --quality draft       one ray a pixel
   freikugel render cup.json --tracer sphere       plain sphere tracing, for comparison
   freikugel render cup.json --crop 100,50,64,64   a part of the frame, the same bytes as in the whole
-  freikugel render cup.json --stats cup-stats.json";
+  freikugel render cup.json --stats cup-stats.json
+  freikugel render cup.vm                         an expression graph: a solid, or without z a region of the plane";
 
 /// Render a picture of a scene.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {
-    /// The scene file, or - for standard input.
+    /// The scene file, or - for standard input; or a model, whose file is called `.vm`.
     scene: PathBuf,
     /// The picture, .png or .exr; by default the scene's name with .png, in the current folder.
     #[arg(short, long, value_name = "FILE")]
@@ -70,11 +73,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .ok_or_else(|| Failure::Usage(format!("{}: the suffix must be .png or .exr", path.display())))?;
     let level = arguments.simd.as_deref().map(instruction_set).transpose()?;
 
-    let mut scene = input::scene(&arguments.scene)?;
-    scene.tracer.method = arguments.tracer.unwrap_or(scene.tracer.method);
-    scene.tracer.warning = arguments.warning_color.or(scene.tracer.warning);
-    let options = Options { crop: arguments.crop, level, ..Options::of(&scene) };
-    let options = arguments.samples.over(arguments.frame.over(options));
+    let mut input = input::read(&arguments.scene)?;
+    let mut options = match &mut input {
+        Input::Scene(scene) => {
+            scene.tracer.method = arguments.tracer.unwrap_or(scene.tracer.method);
+            scene.tracer.warning = arguments.warning_color.or(scene.tracer.warning);
+            Options::of(scene)
+        }
+        Input::Region(_) => Region::options(),
+    };
+    options = Options { crop: arguments.crop, level, ..arguments.samples.over(arguments.frame.over(options)) };
+    if let (Input::Region(_), Some(side)) = (&input, arguments.frame.only_side()) {
+        // Regions are seen in a square unless both sides are given.
+        (options.width, options.height) = (side, side);
+    }
     options.region().map_err(|error| Failure::Usage(error.to_string()))?;
 
     let interrupt = Interrupt::listen();
@@ -82,17 +94,27 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stats_file = arguments.stats.as_deref().map(|path| open(path, &interrupt)).transpose()?;
 
     let watch = Watch::new(arguments.quiet, &interrupt);
-    let rendered = render(&scene, &options, &watch);
+    let rendered = match &input {
+        Input::Scene(scene) => render(scene, &options, &watch),
+        Input::Region(region) => region.render(&options, &watch),
+    };
     watch.bar.finish_and_clear();
     let rendered = rendered.map_err(cannot_render)?;
 
-    let bytes = format.encode(&rendered, &scene.picture).map_err(|error| Failure::Input(error.to_string()))?;
+    let picture = match &input {
+        Input::Scene(scene) => scene.picture.clone(),
+        Input::Region(_) => Picture::default(),
+    };
+    let bytes = format.encode(&rendered, &picture).map_err(|error| Failure::Input(error.to_string()))?;
     if interrupt.is_requested() {
         return Err(Failure::Interrupted);
     }
     if let (Some(file), Some(path)) = (stats_file, &arguments.stats) {
-        file.write(statistics(&rendered, scene.tracer.method).as_bytes())
-            .map_err(|error| cannot_write(path, &error))?;
+        let method = match &input {
+            Input::Scene(scene) => scene.tracer.method,
+            Input::Region(_) => Method::Auto,
+        };
+        file.write(statistics(&rendered, method).as_bytes()).map_err(|error| cannot_write(path, &error))?;
     }
     picture_file.write(&bytes).map_err(|error| cannot_write(&path, &error))?;
     if !arguments.quiet {

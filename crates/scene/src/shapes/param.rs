@@ -15,7 +15,7 @@ const NO_ENTRIES: &str = "must have an entry";
 impl Notation<Vec<f64>> for ParamKind {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
         let numbers = match (*self, value) {
-            (Self::Number | Self::Length | Self::Positive | Self::Factor, _) => {
+            (Self::Number | Self::Length | Self::Positive | Self::Factor | Self::Count(..), _) => {
                 vec![reader.number(value)?]
             }
             (Self::Angle, _) => vec![reader.number(value)?.to_radians()],
@@ -38,6 +38,7 @@ impl Notation<Vec<f64>> for ParamKind {
             }
             (Self::Angles, _) => reader.numbers(value, ["x", "y", "z"])?.map(f64::to_radians).to_vec(),
             (Self::Quaternion, _) => reader.numbers(value, ["x", "y", "z", "w"])?.to_vec(),
+            (Self::Quadruple, _) => reader.numbers(value, ["real", "i", "j", "k"])?.to_vec(),
             (Self::Region, _) => region(reader, value)?,
             (Self::HalfSpaces, _) => half_spaces(reader, value)?,
         };
@@ -48,7 +49,7 @@ impl Notation<Vec<f64>> for ParamKind {
     fn write(&self, value: &Vec<f64>) -> Option<Json> {
         let first = *value.first()?;
         Some(match *self {
-            Self::Number | Self::Length | Self::Positive | Self::Factor => tidy(first),
+            Self::Number | Self::Length | Self::Positive | Self::Factor | Self::Count(..) => tidy(first),
             Self::Angle => tidy_degrees(first),
             Self::Angles => value.iter().map(|&angle| tidy_degrees(angle)).collect(),
             Self::Choice(names) => {
@@ -62,7 +63,9 @@ impl Notation<Vec<f64>> for ParamKind {
                 _ => return None,
             },
             Self::HalfSpaces => value.chunks(4).map(list).collect(),
-            Self::Vector | Self::Direction | Self::Size | Self::Factors | Self::Quaternion => list(value),
+            Self::Vector | Self::Direction | Self::Size | Self::Factors | Self::Quaternion | Self::Quadruple => {
+                list(value)
+            }
         })
     }
 
@@ -75,6 +78,7 @@ impl Notation<Vec<f64>> for ParamKind {
             Self::Length => json!({ "type": "number", "minimum": 0 }),
             Self::Positive => length(),
             Self::Factor => factor(),
+            Self::Count(least, most) => json!({ "type": "integer", "minimum": least, "maximum": most }),
             Self::Choice(names) => {
                 let numbers = names.iter().filter_map(|name| name.parse().ok()).map(tidy);
                 let numbers = numbers.filter(|_| are_numbers(names));
@@ -85,7 +89,7 @@ impl Notation<Vec<f64>> for ParamKind {
             Self::Direction => direction_schema(),
             Self::Size => json!({ "anyOf": [length(), three(length())] }),
             Self::Factors => three(factor()),
-            Self::Quaternion => numbers_schema(4),
+            Self::Quaternion | Self::Quadruple => numbers_schema(4),
             Self::Region => {
                 let one = |name: &str, value: Json| {
                     json!({ "type": "object", "properties": { name: value }, "required": [name],
@@ -194,6 +198,8 @@ mod tests {
             (ORDER, "\"3\"", vec![1.0]),
             (ORDER, "3", vec![1.0]),
             (ORDER, "2.0", vec![0.0]),
+            (ParamKind::Count(1, 8), "8", vec![8.0]),
+            (ParamKind::Quadruple, "[0, 0, 0, 0]", vec![0.0; 4]),
         ] {
             assert_eq!(read(kind, text), Ok(numbers), "{kind:?} {text}");
         }
@@ -202,6 +208,9 @@ mod tests {
             (ORDER, "true"),
             (ParamKind::Choice(&["x", "y"]), "0"),
             (ParamKind::Flag, "1"),
+            (ParamKind::Count(1, 8), "0"),
+            (ParamKind::Count(1, 8), "9"),
+            (ParamKind::Count(1, 8), "2.5"),
             (ParamKind::Vector, "\"x\""),
             (ParamKind::Factors, "[1, 0, 1]"),
             (ParamKind::Quaternion, "[0, 0, 0, 0]"),

@@ -1,0 +1,94 @@
+//! How time and memory grow with the number of objects.
+//!
+//! Each count is measured in a process of its own, so that its peak memory can be told.
+
+use crate::measure::{Clock, Contender, Row, Unit, median, peak_memory};
+use crate::scattered::{self, Kind};
+use crate::table::short;
+use freikugel::render::{Options, Renderer};
+use serde_json::{Value as Json, json};
+use std::process::{Command, Stdio};
+
+/// The counts of the table.
+pub const COUNTS: [usize; 5] = [10, 100, 1_000, 10_000, 100_000];
+
+/// The heading of the table.
+pub const HEADING: &str = "\
+| rounded boxes | read | compile | picture, 1 thread | picture, all threads | peak memory |
+|---|---|---|---|---|---|
+";
+
+/// The name of a count, for the choice of rows.
+pub fn name(count: usize) -> String {
+    format!("growth: {count} rounded boxes")
+}
+
+/// Measures one count in this process: milliseconds to read the scene, to compile it, and for a picture of camera rays and
+/// normals at 640 x 360 (binding and the first division of space included), in processor time on one thread and from start
+/// to end on `threads` of them; and bytes of memory.
+///
+/// # Errors
+/// If the scene that was made can't be read.
+pub fn measure(count: usize, threads: usize, runs: usize) -> Result<Json, String> {
+    let text = scattered::scene(count, Kind::Boxes, None);
+    let start = Clock::Thread.now();
+    let scene = freikugel::scene::read(&text).into_result().map_err(|faults| faults[0].message.clone())?;
+    let read = Clock::Thread.now() - start;
+    let start = Clock::Thread.now();
+    let renderer = Renderer::new(&scene).map_err(|error| error.to_string())?;
+    let compile = Clock::Thread.now() - start;
+    let picture = |threads: usize, clock: Clock| {
+        let options = Options { threads: Some(threads), ..Options::of(&scene) };
+        let renderer = &renderer;
+        Contender::new("picture", clock, move || {
+            renderer.layers(&options, &()).expect("nobody cancels");
+        })
+    };
+    let contenders = vec![picture(1, Clock::Thread), picture(threads, Clock::Wall)];
+    let times = Row { name: name(count), unit: Unit::Milliseconds, contenders }.run(runs);
+    let [one, all] = [&times[0], &times[1]].map(|times| times.as_ref().map_or(f64::NAN, |times| median(times) * 1e3));
+    Ok(json!({
+        "count": count,
+        "read_ms": read.as_secs_f64() * 1e3,
+        "compile_ms": compile.as_secs_f64() * 1e3,
+        "picture_cpu_ms": one,
+        "picture_wall_ms": all,
+        "threads": threads,
+        "peak_bytes": peak_memory(),
+    }))
+}
+
+/// Has a process of its own measure a count.
+///
+/// # Errors
+/// What went wrong.
+pub fn in_process(count: usize, threads: usize, runs: usize) -> Result<Json, String> {
+    let own = std::env::current_exe().map_err(|error| error.to_string())?;
+    let output = Command::new(own)
+        .args(["grow", &count.to_string(), "--threads", &threads.to_string(), "--runs", &runs.to_string()])
+        .stdin(Stdio::null())
+        .output()
+        .map_err(|error| error.to_string())?;
+    match output.status.success() {
+        true => serde_json::from_slice(&output.stdout).map_err(|error| error.to_string()),
+        false => Err(String::from_utf8_lossy(&output.stderr).trim().to_owned()),
+    }
+}
+
+/// One line of the table.
+pub fn markdown(count: usize, figures: &Result<Json, String>) -> String {
+    match figures {
+        Err(reason) => format!("| {count} | {reason} | | | | |\n"),
+        Ok(figures) => {
+            let number = |key: &str| figures[key].as_f64().unwrap_or(f64::NAN);
+            format!(
+                "| {count} | {} ms | {} ms | {} ms | {} ms | {} MB |\n",
+                short(number("read_ms")),
+                short(number("compile_ms")),
+                short(number("picture_cpu_ms")),
+                short(number("picture_wall_ms")),
+                short(number("peak_bytes") / 1e6)
+            )
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Large scenes: many small primitives, scattered over a cube.
+//!
+//! The centres lie anywhere in the cube from -1 to 1. Sizes are random up to a share of 0.9 / cube root of the count, the mean
+//! distance between neighbours, so that the picture is equally dense for any count. The same count and kind give the
+//! same scene, byte by byte.
+
+use std::fmt::Write;
+
+/// What is scattered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Kind {
+    /// Cubes with rounded edges.
+    Boxes,
+    /// Balls.
+    Spheres,
+    /// Cubes, balls, rings and rods.
+    Mixed,
+}
+
+/// The largest number of primitives: more would exceed the largest scene file that the command reads.
+pub const MOST: usize = 300_000;
+
+/// The same for any count, so that scenes can be told apart by that alone.
+const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
+
+/// The colours in turn.
+const COLORS: [&str; 5] = ["#c8825a", "#6d8fb3", "#93a86c", "#d6b65c", "#a07aa6"];
+
+/// Numbers from 0 to 1 by Marsaglia, "Xorshift RNGs" (2003).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 40) as f64 / (1_u64 << 24) as f64
+    }
+}
+
+/// The text of a scene of `count` primitives: an object each, or with `blend` one object that blends all within this
+/// distance. There are no lights besides the ambient one, so that camera rays are all there is to trace.
+pub fn scene(count: usize, kind: Kind, blend: Option<f64>) -> String {
+    let mut random = Random(SEED);
+    let spacing = 0.9 / (count.max(1) as f64).cbrt();
+    let mut text = String::from(
+        "{\n  \"version\": 1,\n  \"picture\": { \"width\": 640, \"height\": 360, \"samples\": 1 },\n  \
+         \"camera\": { \"eye\": [1.5, -1.7, 0.9], \"target\": [0, 0, 0], \"fov\": 62 },\n  \
+         \"ambient\": { \"sky\": [1, 1, 1], \"ground\": [0.2, 0.2, 0.25] },\n  \
+         \"occlusion\": false,\n  \"lights\": [],\n  \"materials\": {\n",
+    );
+    for (index, color) in COLORS.iter().enumerate() {
+        let comma = if index + 1 < COLORS.len() { "," } else { "" };
+        let _ = writeln!(text, "    \"{index}\": {{ \"color\": \"{color}\" }}{comma}");
+    }
+    text += "  },\n  \"objects\": [\n";
+    if let Some(blend) = blend {
+        let _ = writeln!(
+            text,
+            "    {{ \"material\": \"0\", \"shape\": {{ \"smooth_union\": {{ \"k\": {blend}, \"shapes\": ["
+        );
+    }
+    for index in 0..count {
+        let [x, y, z] = [(); 3].map(|()| random.next() * 2.0 - 1.0);
+        let core = spacing * 0.6 * random.next();
+        let round = spacing * (0.15 + 0.35 * random.next());
+        let half = core + round;
+        let shape = match (kind, index % 4) {
+            (Kind::Boxes, _) | (Kind::Mixed, 0) => {
+                let size = 2.0 * half;
+                format!(r#""box": {{ "size": [{size:.6}, {size:.6}, {size:.6}], "round": {round:.6} }}"#)
+            }
+            (Kind::Spheres, _) | (Kind::Mixed, 1) => format!(r#""sphere": {{ "radius": {half:.6} }}"#),
+            (Kind::Mixed, 2) => {
+                format!(r#""torus": {{ "major": {half:.6}, "minor": {:.6} }}"#, round / 2.0)
+            }
+            (Kind::Mixed, _) => {
+                format!(r#""cylinder": {{ "radius": {:.6}, "height": {:.6} }}"#, half / 2.0, 2.0 * half)
+            }
+        };
+        let placed = format!(r#"{{ "translate": {{ "by": [{x:.6}, {y:.6}, {z:.6}], "shape": {{ {shape} }} }} }}"#);
+        let comma = if index + 1 < count { "," } else { "" };
+        let _ = match blend {
+            Some(_) => writeln!(text, "      {placed}{comma}"),
+            None => writeln!(text, "    {{ \"material\": \"{}\", \"shape\": {placed} }}{comma}", index % COLORS.len()),
+        };
+    }
+    if blend.is_some() {
+        text += "    ] } } }\n";
+    }
+    text + "  ]\n}\n"
+}
