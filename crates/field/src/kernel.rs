@@ -8,7 +8,7 @@
 use crate::expr::Expr;
 use crate::scalar::{Constants, Dual, Interval, Intervals, Lanes, Scalar, Taylor};
 use crate::shape::{Combine, Modify, Primitive};
-use crate::simd::{Level, dispatch};
+use crate::simd::{Level, dispatch, dispatch_up_to_avx2};
 use crate::vector::{Vec3, vec3};
 use fearless_simd::Simd;
 
@@ -263,7 +263,7 @@ fn primitive_gradients<P: Primitive>(level: Level, job: &mut PrimitiveJob<'_>) {
 }
 
 fn primitive_seconds<P: Primitive>(level: Level, job: &mut PrimitiveJob<'_>) {
-    dispatch!(level, token => primitive_loop::<P, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
+    dispatch_up_to_avx2!(level, token => primitive_loop::<P, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
 }
 
 /// A primitive over one batch of points of some number type.
@@ -312,7 +312,7 @@ fn combine_gradients<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
 }
 
 fn combine_seconds<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
-    dispatch!(level, token => combine_loop::<C, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job, false));
+    dispatch_up_to_avx2!(level, token => combine_loop::<C, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job, false));
 }
 
 fn combine_ranges<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
@@ -365,7 +365,7 @@ fn modify_gradients<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
 }
 
 fn modify_seconds<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
-    dispatch!(level, token => modify_loop::<M, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
+    dispatch_up_to_avx2!(level, token => modify_loop::<M, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
 }
 
 fn modify_ranges<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
@@ -431,7 +431,7 @@ pub(crate) fn affine_gradients(level: Level, job: &mut AffineJob<'_>) {
 
 /// Maps a batch of points with second derivatives.
 pub(crate) fn affine_seconds(level: Level, job: &mut AffineJob<'_>) {
-    dispatch!(level, token => affine_loop::<_, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
+    dispatch_up_to_avx2!(level, token => affine_loop::<_, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
 }
 
 /// Maps a batch of boxes.

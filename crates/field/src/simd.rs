@@ -76,6 +76,37 @@ macro_rules! dispatch {
 
 pub(crate) use dispatch;
 
+/// As [`dispatch!`], for kernels that run seldom and take long to build: AVX-512 machines run those for AVX2.
+#[cfg(target_arch = "x86_64")]
+macro_rules! dispatch_up_to_avx2 {
+    ($level:expr, $token:ident => $body:expr) => {{
+        use fearless_simd::Simd;
+        let level: $crate::simd::Level = $level;
+        if let Some($token) = level.as_avx2() {
+            $token.vectorize(
+                #[inline(always)]
+                || $body,
+            )
+        } else {
+            let $token = level.as_sse2().expect("x86-64 has SSE2");
+            $token.vectorize(
+                #[inline(always)]
+                || $body,
+            )
+        }
+    }};
+}
+
+/// As [`dispatch!`].
+#[cfg(not(target_arch = "x86_64"))]
+macro_rules! dispatch_up_to_avx2 {
+    ($level:expr, $token:ident => $body:expr) => {
+        fearless_simd::dispatch!($level, $token => $body)
+    };
+}
+
+pub(crate) use dispatch_up_to_avx2;
+
 /// Runs `work` compiled for an instruction set, so that loops in it are vectorised for that. Write the closure as
 /// `#[inline(always)] || ...`, in the call itself.
 #[inline(always)]

@@ -310,7 +310,7 @@ impl<'p> Sloper<'p> {
     fn root(&self, from: StepId, list: &[Step]) -> Sloped {
         let mut sides = [StepId::POINT; 3];
         let Some(count) = squares(from, list, &mut sides) else {
-            return unary(self.values[from.index()], |x| x.sqrt());
+            return unary(self.values[from.index()], Scalar::sqrt);
         };
         let sides: [Sloped; 3] = std::array::from_fn(|i| match i < count {
             true => self.values[sides[i].index()],
