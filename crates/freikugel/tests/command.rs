@@ -369,8 +369,7 @@ fn a_tracer_can_be_chosen_and_is_named_in_the_statistics() {
     assert_eq!(code(&output), 2);
     assert!(stderr(&output).contains("#rrggbb"), "{}", stderr(&output));
 
-    folder
-        .write("wave.json", r#"{ "objects": [ { "name": "wave", "shape": { "formula": "z - sin(x) * sin(y)" } } ] }"#);
+    folder.write("wave.json", r#"{ "objects": [ { "name": "wave", "shape": { "formula": "z - x^2 * y" } } ] }"#);
     let output = folder.run(&["render", "wave.json", "--tracer", "sphere"]);
     assert_eq!(code(&output), 1);
     assert!(stderr(&output).contains("`sphere` can't find \"wave\""), "{}", stderr(&output));
@@ -413,7 +412,7 @@ fn compare_names_the_reason_why_a_tracer_can_not_be_used() {
     let folder = Folder::new();
     folder.write(
         "wave.json",
-        r#"{ "picture": { "width": 24, "height": 16 }, "objects": [ { "name": "wave", "shape": { "formula": "z - sin(x)" } } ] }"#,
+        r#"{ "picture": { "width": 24, "height": 16 }, "objects": [ { "name": "wave", "shape": { "formula": "z - x^2 * y" } } ] }"#,
     );
     let output = folder.run(&["compare", "wave.json", "--runs", "1", "--json", "figures.json"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));

@@ -2,8 +2,7 @@
 //!
 //! Letters are those of Noto Sans Mono (SIL Open Font License 1.1), which come drawn in advance.
 
-use freikugel::render::{EncodeError, Image, Tone, encode_png};
-use freikugel::scene::color::linear;
+use freikugel::render::{Image, Tone};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 
 /// Red, green and blue in sRGB.
@@ -65,11 +64,18 @@ impl Bitmap {
         Self { width: image.width(), height: image.height(), pixels }
     }
 
-    /// The picture as a PNG file.
-    pub(super) fn encode(&self) -> Result<Vec<u8>, EncodeError> {
-        let linear: Vec<f32> = (0..=255u8).map(|code| linear(f64::from(code) / 255.0) as f32).collect();
-        let pixels = self.pixels.iter().map(|pixel| pixel.map(|code| linear[usize::from(code)])).collect();
-        encode_png(&Image::new(self.width, self.height, pixels), &Tone::default())
+    /// The picture as a PNG file, as small as can be: sheets are kept and shown more often than they are made.
+    pub(super) fn encode(&self) -> Result<Vec<u8>, png::EncodingError> {
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, self.width, self.height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::High);
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(self.pixels.as_flattened())?;
+        writer.finish()?;
+        Ok(file)
     }
 
     /// Puts another picture on it.
