@@ -20,7 +20,14 @@ const ROWS: usize = RAYS / LANES;
 
 /// Where a ray enters and leaves a box is known up to this part of the distances involved. Parts hold as much beyond their
 /// boxes.
-pub(crate) const SEAM: f32 = 4.0 * f32::EPSILON;
+const SEAM: f32 = 4.0 * f32::EPSILON;
+
+/// What the planes of a box are moved outward by for a shaft, relative to the coordinates involved: more than the rounding
+/// errors of a ray's test.
+const SHAFT_ROUNDING: f32 = 16.0 * f32::EPSILON;
+
+/// As [`SEAM`], for shafts: more than that of a ray on both sides.
+pub(crate) const SHAFT_SEAM: f32 = 4.0 * SEAM;
 
 /// Stands for the components of a direction that are 0, so that no product of 0 and infinity arises.
 const LEAST_COMPONENT: f32 = 1e-30;
@@ -368,9 +375,11 @@ impl Shaft {
         self.inverse[axis][0] > 0.0
     }
 
-    /// Between what distances some ray may lie in a slab between two planes across an axis.
+    /// Between what distances some ray may lie in a slab between two planes across an axis. Wide enough for whatever
+    /// [`Bundle::meet`] makes of a box in there: whether a ray meets a box must not depend on its companions.
     pub(crate) fn slab(&self, axis: usize, middle: f32, half: f32) -> [f32; 2] {
         let ([first, last], [slow, fast]) = (self.origin[axis], self.inverse[axis]);
+        let half = half + SHAFT_ROUNDING * (middle.abs() + half + first.abs().max(last.abs()));
         // All rays go the same way; towards rising coordinates after mirroring.
         let (lo, hi, least, most) = if slow > 0.0 {
             (middle - half - last, middle + half - first, slow, fast)

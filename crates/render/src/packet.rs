@@ -5,7 +5,7 @@
 //! smallest boxes the rays that meet them march with the part of the program that matters there. What a ray ends with
 //! depends on nothing but the ray and the cells: not on its companions.
 
-use crate::bundle::{Bundle, Rows, SEAM, Shaft};
+use crate::bundle::{Bundle, Rows, SHAFT_SEAM, Shaft};
 use crate::march::{self, End, Pace, Start};
 use crate::search::Search;
 use crate::vector::{Triple, length};
@@ -26,7 +26,7 @@ const CELL_PIXELS: f32 = 24.0;
 /// As [`SMALL_PART`], for parts with formulas, and as [`CELL_PIXELS`]: a model along a ray covers long stretches at once, so
 /// that large boxes are better unless they hold less of a long formula.
 const SMALL_FORMULA: usize = 96;
-const FORMULA_PIXELS: f32 = 96.0;
+const FORMULA_PIXELS: f32 = 48.0;
 
 /// What rays travel through.
 pub(crate) struct Space<'f> {
@@ -162,7 +162,7 @@ impl<'f> Trip<'_, 'f, '_> {
             }
         }
         let meet = |[near, far]: [f32; 2], [first, last]: [f32; 2]| [near.max(first), far.min(last)];
-        let is_open = |[near, far]: [f32; 2]| near <= far + SEAM * (near.abs() + far.abs());
+        let is_open = |[near, far]: [f32; 2]| near <= far + SHAFT_SEAM * (near.abs() + far.abs());
         let mut evaluations = 0;
         for &(z, slab) in &slabs[2][..side] {
             let span = meet([shaft.near, shaft.far], slab);

@@ -11,7 +11,7 @@
 use crate::bundle::{Bundle, LANES, RAYS, Row, Rows, row, row_mut};
 use crate::march::{Fate, Pace};
 use freikugel_field::kernel::Block;
-use freikugel_field::{Encloser, ModelLanes, Part, simd};
+use freikugel_field::{Encloser, ModelLanes, Part, StretchLanes, simd};
 
 /// Rounding errors of Bernstein coefficients, relative to the sum of the polynomial's coefficients.
 const ROUNDING: f32 = 16.0 * f32::EPSILON;
@@ -46,14 +46,21 @@ const SHORTER: f32 = 0.4;
 /// Makes a stretch cover its ends in spite of rounding.
 const COVER: f32 = 1.0 + 4.0 * f32::EPSILON;
 
-/// The rays of a bundle that search a cell.
+/// The rays that search a cell, side by side, since a model costs more than moving them there.
 #[derive(Default)]
 pub(crate) struct Search {
-    /// Where each ray is, and how far it looks.
+    count: usize,
+    /// Their places in the bundle.
+    ray: Vec<u32>,
+    origin: [Block; 3],
+    direction: [Block; 3],
+    /// Where each ray is, how far it looks, and where it ends.
     t: Block,
     width: Block,
+    end: Block,
     /// How far from a zero a ray may stop.
     tolerance: Block,
+    steps: Vec<u32>,
     /// What became of each ray, as a [`Verdict`].
     verdict: Block,
 }
@@ -82,106 +89,87 @@ impl Search {
     pub(crate) fn cross(
         &mut self,
         bundle: &mut Bundle,
-        mut rows: Rows,
+        rows: Rows,
         encloser: &mut Encloser<'_>,
         part: &Part,
         pace: Pace,
         place: u32,
     ) -> u64 {
+        self.gather(bundle, rows, pace);
         let level = encloser.level();
-        let all = rows;
-        simd::with(
-            level,
-            #[inline(always)]
-            || {
-                for start in rows.starts() {
-                    self.begin(bundle, start, pace);
-                }
-            },
-        );
-        let mut going = [0_u32; RAYS / LANES];
-        // Each ray makes a first model, and another one each time it goes on.
-        let mut models = bundle.count_meeting(&rows);
-        while !rows.is_empty() {
-            let lanes = encloser.models(part, rows.lanes(), |stretches| {
-                for (number, from) in stretches.origin.into_iter().zip(&bundle.origin) {
-                    gather(number, from, &rows);
-                }
-                for (number, from) in stretches.direction.into_iter().zip(&bundle.direction) {
-                    gather(number, from, &rows);
-                }
-                let (middles, halves) = (stretches.middle, stretches.half);
-                let places = middles.chunks_exact_mut(LANES).zip(halves.chunks_exact_mut(LANES));
-                for (start, (middle, half)) in rows.starts().zip(places) {
-                    for lane in 0..LANES {
-                        let (t, width) = (self.t.0[start + lane], self.width.0[start + lane]);
-                        // Rays that meet nothing look nowhere.
-                        let leave = bundle.leave.0[start + lane].max(t);
-                        let far = (t + width).min(leave);
-                        middle[lane] = 0.5 * t + 0.5 * far;
-                        half[lane] = 0.5 * (far - t) * COVER;
-                    }
-                }
-            });
+        let mut models = 0;
+        while self.count > 0 {
+            models += self.count as u64;
+            let lanes = self.count.next_multiple_of(LANES);
+            let zeros = encloser.models(part, lanes, |stretches| self.stretch(lanes, stretches));
             simd::with(
                 level,
                 #[inline(always)]
                 || {
-                    for (place, start) in rows.starts().enumerate() {
-                        let first = Model::load(&lanes.first, place * LANES, lanes.is_sheet);
-                        let look = match &lanes.cut {
+                    for start in (0..lanes).step_by(LANES) {
+                        let first = Model::load(&zeros.first, start, zeros.is_sheet);
+                        let look = match &zeros.cut {
                             None => Look::at(&first, None),
-                            Some(cut) => Look::at(&first, Some(&Model::load(cut, place * LANES, false))),
+                            Some(cut) => Look::at(&first, Some(&Model::load(cut, start, false))),
                         };
-                        going[place] = self.step(bundle, start, &look, pace);
+                        self.step(start, &look);
                     }
                 },
             );
-            models += going[..rows.lanes() / LANES].iter().map(|&count| u64::from(count)).sum::<u64>();
-            rows.retain(|place| going[place] > 0);
-        }
-        for start in all.starts() {
-            for ray in start..start + LANES {
-                let fate = match self.verdict.0[ray] {
-                    Verdict::HIT => Fate::Hit,
-                    Verdict::UNKNOWN => Fate::Exhausted,
-                    _ => continue,
-                };
-                bundle.find(ray, fate, self.t.0[ray], 0.0, place);
-            }
+            self.sort_out(bundle, pace, place);
         }
         models
     }
 
-    /// Makes the rays of a row ready.
-    #[inline(always)]
-    fn begin(&mut self, bundle: &Bundle, start: usize, pace: Pace) {
-        let (enter, leave) = (row(&bundle.enter, start), row(&bundle.leave, start));
-        let (base, growth) = (row(&bundle.base, start), row(&bundle.growth, start));
-        let (t, width) = (row_mut(&mut self.t, start), row_mut(&mut self.width, start));
-        let (tolerance, verdict) = (row_mut(&mut self.tolerance, start), row_mut(&mut self.verdict, start));
-        for lane in 0..LANES {
-            let meets = leave[lane] > f32::NEG_INFINITY;
-            t[lane] = if meets { enter[lane] } else { 0.0 };
-            width[lane] = if meets { leave[lane] - enter[lane] } else { 0.0 };
-            tolerance[lane] = (base[lane] + growth[lane] * enter[lane]) * pace.scale;
-            verdict[lane] = if meets { Verdict::OPEN } else { Verdict::CLEAR };
+    /// Takes the rays of some rows that meet the cell.
+    fn gather(&mut self, bundle: &Bundle, rows: Rows, pace: Pace) {
+        self.ray.resize(RAYS, 0);
+        self.steps.resize(RAYS, 0);
+        self.count = 0;
+        for ray in rows.starts().flat_map(|start| start..start + LANES) {
+            let (enter, leave) = (bundle.enter.0[ray], bundle.leave.0[ray]);
+            if leave == f32::NEG_INFINITY {
+                continue;
+            }
+            let place = self.count;
+            self.count += 1;
+            self.ray[place] = ray as u32;
+            for axis in 0..3 {
+                self.origin[axis].0[place] = bundle.origin[axis].0[ray];
+                self.direction[axis].0[place] = bundle.direction[axis].0[ray];
+            }
+            self.t.0[place] = enter;
+            self.width.0[place] = leave - enter;
+            self.end.0[place] = leave;
+            self.tolerance.0[place] = (bundle.base.0[ray] + bundle.growth.0[ray] * enter) * pace.scale;
+            self.steps[place] = bundle.steps[ray];
         }
     }
 
-    /// Draws the conclusions from models along the stretches ahead, and returns how many rays go on.
+    /// Writes the stretches that lie ahead.
+    fn stretch(&self, lanes: usize, to: StretchLanes<'_>) {
+        let numbers = to.origin.into_iter().zip(&self.origin).chain(to.direction.into_iter().zip(&self.direction));
+        for (to, from) in numbers {
+            to.copy_from_slice(&from.0[..lanes]);
+        }
+        for lane in 0..lanes {
+            let near = self.t.0[lane];
+            let far = (near + self.width.0[lane]).min(self.end.0[lane]);
+            to.middle[lane] = 0.5 * near + 0.5 * far;
+            to.half[lane] = 0.5 * (far - near) * COVER;
+        }
+    }
+
+    /// Draws the conclusions from models along the stretches ahead of a row.
     #[inline(always)]
-    fn step(&mut self, bundle: &mut Bundle, start: usize, look: &Look, pace: Pace) -> u32 {
-        let leave = row(&bundle.leave, start);
-        let steps: &mut [u32; LANES] = (&mut bundle.steps[start..start + LANES]).try_into().expect("a row");
+    fn step(&mut self, start: usize, look: &Look) {
         let (t, width) = (row_mut(&mut self.t, start), row_mut(&mut self.width, start));
-        let (tolerance, verdict) = (row(&self.tolerance, start), row_mut(&mut self.verdict, start));
-        let mut going = 0;
+        let (end, tolerance) = (row(&self.end, start), row(&self.tolerance, start));
+        let verdict = row_mut(&mut self.verdict, start);
         for lane in 0..LANES {
-            let was_open = verdict[lane] == Verdict::OPEN;
             let (near, ahead) = (t[lane], width[lane]);
             let far = near + ahead;
-            let far = if far < leave[lane] { far } else { leave[lane] };
+            let far = if far < end[lane] { far } else { end[lane] };
             let (middle, half) = (0.5 * near + 0.5 * far, 0.5 * (far - near));
             let found = look.verdict[lane];
             let at = middle + half * look.at[lane];
@@ -191,7 +179,7 @@ impl Search {
             let is_near = is_root & (doubt <= tolerance[lane]);
             let is_last = (lesser(ahead, far - near) <= tolerance[lane]) & !is_clear;
             let is_hit = is_near | (found == Verdict::HIT) | (is_last & (found != Verdict::UNKNOWN));
-            let is_past = is_clear & (far >= leave[lane]);
+            let is_past = is_clear & (far >= end[lane]);
             // Around a zero that is not known well enough, as far as the doubt goes.
             let next = if is_clear {
                 far
@@ -204,35 +192,44 @@ impl Search {
             let change = look.change[lane];
             let change = if is_clear { greater(change, AT_LEAST_LONGER) } else { lesser(change, SHORTER) };
             let next_width = if is_root { lesser(2.0 * doubt, 0.5 * (far - near)) } else { change * (far - near) };
-            let next_width = greater(next_width, tolerance[lane]);
-            let is_spent = steps[lane] + 1 >= pace.max_steps;
-            let outcome = if is_hit {
+            let stop = if is_root | (found == Verdict::HIT) { at } else { near };
+            verdict[lane] = if is_hit {
                 Verdict::HIT
             } else if is_past {
                 Verdict::CLEAR
-            } else if is_last | is_spent {
+            } else if is_last {
                 Verdict::UNKNOWN
             } else {
                 Verdict::OPEN
             };
-            let goes_on = was_open & (outcome == Verdict::OPEN);
-            verdict[lane] = if was_open { outcome } else { verdict[lane] };
-            let stop = if is_root | (found == Verdict::HIT) { at } else { near };
-            let reached = if is_hit { stop } else { next };
-            t[lane] = if was_open { reached } else { near };
-            width[lane] = if goes_on { next_width } else { ahead };
-            steps[lane] += u32::from(was_open);
-            going += u32::from(goes_on);
+            t[lane] = if is_hit { stop } else { next };
+            width[lane] = greater(next_width, tolerance[lane]);
         }
-        going
     }
-}
 
-/// Copies some rows side by side.
-#[inline(always)]
-fn gather(to: &mut [f32], from: &Block, rows: &Rows) {
-    for (to, start) in to.chunks_exact_mut(LANES).zip(rows.starts()) {
-        to.copy_from_slice(row(from, start));
+    /// Notes the rays that are done, and moves the others together.
+    fn sort_out(&mut self, bundle: &mut Bundle, pace: Pace, place: u32) {
+        let mut kept = 0;
+        for lane in 0..self.count {
+            let ray = self.ray[lane] as usize;
+            let steps = self.steps[lane] + 1;
+            let (t, verdict) = (self.t.0[lane], self.verdict.0[lane]);
+            bundle.steps[ray] = steps;
+            if verdict == Verdict::HIT {
+                bundle.find(ray, Fate::Hit, t, 0.0, place);
+            } else if verdict == Verdict::UNKNOWN || (verdict == Verdict::OPEN && steps >= pace.max_steps) {
+                bundle.find(ray, Fate::Exhausted, t, 0.0, place);
+            } else if verdict == Verdict::OPEN {
+                self.ray[kept] = ray as u32;
+                self.steps[kept] = steps;
+                let Self { origin, direction, t, width, end, tolerance, .. } = self;
+                for numbers in origin.iter_mut().chain(direction).chain([t, width, end, tolerance]) {
+                    numbers.0[kept] = numbers.0[lane];
+                }
+                kept += 1;
+            }
+        }
+        self.count = kept;
     }
 }
 

@@ -337,7 +337,9 @@ impl<I: Simd> Scalar for Taylor<I> {
 
     #[inline(always)]
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
-        Self::choose(mask.is_open(), yes.hull(no), Self::choose(mask.holds(), yes, no))
+        let decided = Self::choose(mask.holds(), yes, no);
+        // Along most stretches all comparisons are decided.
+        if Lanes::<I>::any(mask.is_open()) { Self::choose(mask.is_open(), yes.hull(no), decided) } else { decided }
     }
 
     #[inline(always)]
