@@ -6,6 +6,7 @@
 mod fields;
 
 use fields::{csg20, many};
+use freikugel_field::shapes::{mandelbulb, quaternion_julia};
 use freikugel_field::{Evaluator, Points, Program, Structure, simd};
 use std::time::Instant;
 

@@ -61,9 +61,6 @@ pub(crate) struct Bundle {
     /// For soft marches: the factor so far, and the ratio at the last step times the sharpness.
     pub(crate) factor: Block,
     pub(crate) before: Block,
-    /// For relaxed marches: the radius of the free ball before the last step, and the length of that step.
-    pub(crate) free: Block,
-    pub(crate) stride: Block,
     /// The stretch of each ray in the box tested last; none (`leave` is -∞) if it does not meet that.
     pub(crate) enter: Block,
     pub(crate) leave: Block,
@@ -137,8 +134,6 @@ impl Default for Bundle {
             steps: [0; RAYS],
             factor: Block::default(),
             before: Block::default(),
-            free: Block::default(),
-            stride: Block::default(),
             enter: Block::default(),
             leave: Block::default(),
             value: Block::default(),
@@ -317,12 +312,6 @@ impl Bundle {
                 }
             },
         );
-    }
-
-    /// Lets relaxed marches begin anew.
-    pub(crate) fn forget_steps(&mut self) {
-        self.free.0.fill(0.0);
-        self.stride.0.fill(0.0);
     }
 
     /// Notes that a ray met something in a place, or gave up there, and goes no farther.

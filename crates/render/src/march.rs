@@ -6,11 +6,6 @@
 //!
 //! There are two kinds of march. [`hard`] looks for the first surface. [`soft`] looks besides for the least ratio of
 //! clearance to distance travelled, the factor of soft shadows.
-//!
-//! Where the field is much smaller than the distance, as that of a fractal, hard marches take longer steps than the free
-//! ball around their point allows (Keinert, Schäfer, Korndörfer, Ganse and Stamminger, "Enhanced Sphere Tracing", 2014). If
-//! the free balls before and after such a step don't touch, something may lie between them: the ray goes back to where the
-//! first one ends. How much longer the steps are follows from how the field changed on the last one.
 
 use crate::bundle::{Bundle, LANES, Rows, row, row_mut};
 use freikugel_field::simd;
@@ -25,14 +20,6 @@ const SHORTEST_STEP: f32 = 0.5;
 
 /// A ratio that has fallen by less than this on the last step is at its least or will not fall much any more.
 const STEADY: f32 = 0.98;
-
-/// The surplus of a relaxed step, in free balls, where the field stays as large as it was on the last step; in proportion
-/// where it fell. With more of it too many steps are taken back: on the fractals of the bench scenes, twice this costs as much
-/// as nothing.
-const SURPLUS: f32 = 0.65;
-
-/// The largest surplus, where the field grows. The balls could not touch from 1 on unless it grows further.
-const LARGEST_SURPLUS: f32 = 0.9;
 
 /// What holds for all rays of a march.
 #[derive(Clone, Copy, Debug)]
@@ -105,12 +92,8 @@ pub(crate) fn hard(
     pace: Pace,
     place: u32,
 ) -> u64 {
-    let evaluations = if part.is_loose() {
-        bundle.forget_steps();
-        march(bundle, rows, field, part, |bundle, start, values| advance_relaxed(bundle, start, values, pace))
-    } else {
-        march(bundle, rows, field, part, |bundle, start, values| advance_hard(bundle, start, values, pace))
-    };
+    let evaluations =
+        march(bundle, rows, field, part, |bundle, start, values| advance_hard(bundle, start, values, pace));
     collect(bundle, rows, place, false);
     evaluations
 }
@@ -172,42 +155,6 @@ fn advance_hard(bundle: &mut Bundle, start: usize, values: &[f32; LANES], pace: 
         let goes =
             (values[ray] >= base[ray] + growth[ray] * t[ray]) & (t[ray] < end[ray]) & (steps[ray] < pace.max_steps);
         t[ray] += if goes { values[ray] * factor } else { 0.0 };
-        steps[ray] += u32::from(goes);
-        going += u32::from(goes);
-    }
-    going
-}
-
-/// As [`advance_hard`], with steps that are longer than the free ball.
-#[inline(always)]
-fn advance_relaxed(bundle: &mut Bundle, start: usize, values: &[f32; LANES], pace: Pace) -> u32 {
-    let factor = pace.scale * pace.step_factor;
-    let Bundle { enter, leave, base, growth, steps, value, free, stride, .. } = bundle;
-    let (t, end) = (row_mut(enter, start), row(leave, start));
-    let (base, growth) = (row(base, start), row(growth, start));
-    let (free, stride) = (row_mut(free, start), row_mut(stride, start));
-    let steps: &mut [u32; LANES] = (&mut steps[start..start + LANES]).try_into().expect("a row");
-    *row_mut(value, start) = *values;
-    let mut going = 0;
-    for ray in 0..LANES {
-        let (own, before) = (values[ray] * factor, free[ray]);
-        // A step within the ball is safe, whatever rounding says.
-        let misses = (stride[ray] > before) & (own + before < stride[ray]);
-        let is_on_its_way =
-            (values[ray] >= base[ray] + growth[ray] * t[ray]) & (t[ray] < end[ray]) & (steps[ray] < pace.max_steps);
-        let change = SURPLUS * own / before;
-        let surplus = if change < LARGEST_SURPLUS { change } else { LARGEST_SURPLUS };
-        let surplus = if before > 0.0 { surplus } else { 0.0 };
-        let relaxed = own + own * surplus;
-        let ahead = if t[ray] + relaxed < end[ray] { relaxed } else { own };
-        // Having gone back, a ray forgets the step, so that the next one is safe.
-        let back = before - stride[ray];
-        let step = if is_on_its_way { ahead } else { 0.0 };
-        t[ray] += if misses { back } else { step };
-        let (next_free, next_stride) = if is_on_its_way { (own, ahead) } else { (before, stride[ray]) };
-        free[ray] = if misses { 0.0 } else { next_free };
-        stride[ray] = if misses { 0.0 } else { next_stride };
-        let goes = misses | is_on_its_way;
         steps[ray] += u32::from(goes);
         going += u32::from(goes);
     }

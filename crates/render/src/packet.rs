@@ -6,6 +6,7 @@
 //! depends on nothing but the ray and the cells: not on its companions.
 
 use crate::bundle::{Bundle, Rows, SHAFT_SEAM, Shaft};
+use crate::loose::Loose;
 use crate::march::{self, End, Pace, Start};
 use crate::search::Search;
 use crate::vector::{Triple, length};
@@ -70,6 +71,7 @@ pub(crate) struct Packet<'f> {
     /// The cells in which something was met.
     pub(crate) places: Vec<&'f Cell>,
     search: Search,
+    loose: Loose,
 }
 
 impl<'f> Packet<'f> {
@@ -104,8 +106,8 @@ impl<'f> Packet<'f> {
         ends: &mut Vec<End>,
     ) -> u64 {
         self.places.clear();
-        let Self { bundles, in_use, places, search } = self;
-        let mut trip = Trip { space, quest, field, encloser, splitter, places, search };
+        let Self { bundles, in_use, places, search, loose } = self;
+        let mut trip = Trip { space, quest, field, encloser, splitter, places, search, loose };
         let mut evaluations = 0;
         for (bundles, in_use) in bundles.iter_mut().zip(in_use) {
             for bundle in &mut bundles[..*in_use] {
@@ -127,6 +129,7 @@ struct Trip<'a, 'f, 'e> {
     splitter: &'a mut Splitter,
     places: &'a mut Vec<&'f Cell>,
     search: &'a mut Search,
+    loose: &'a mut Loose,
 }
 
 impl<'f> Trip<'_, 'f, '_> {
@@ -262,6 +265,9 @@ impl<'f> Trip<'_, 'f, '_> {
 
     /// Lets the rays of some rows march through a cell.
     fn march(&mut self, bundle: &mut Bundle, mut rows: Rows, cell: &Cell, pace: Pace, place: u32) -> u64 {
+        if self.quest != Quest::Least && cell.part().is_loose() {
+            return self.loose.hard(bundle, rows, self.field, cell.part(), pace, place);
+        }
         if self.quest != Quest::Least {
             return march::hard(bundle, rows, self.field, cell.part(), pace, place);
         }

@@ -8,8 +8,9 @@
 //! much smaller, down to the tolerance; a zero that can't be excluded even there is a hit. So no surface is missed, and the
 //! field's scale does not matter.
 
-use crate::bundle::{Bundle, LANES, RAYS, Row, Rows, row, row_mut};
+use crate::bundle::{Bundle, LANES, Row, Rows, row, row_mut};
 use crate::march::{Fate, Pace};
+use crate::squad::Squad;
 use freikugel_field::kernel::Block;
 use freikugel_field::{Encloser, ModelLanes, Part, StretchLanes, simd};
 
@@ -46,21 +47,10 @@ const SHORTER: f32 = 0.4;
 /// Makes a stretch cover its ends in spite of rounding.
 const COVER: f32 = 1.0 + 4.0 * f32::EPSILON;
 
-/// The rays that search a cell, side by side, since a model costs more than moving them there.
+/// The rays that search a cell. Their further numbers: how far they look, and how far from a zero they may stop.
 #[derive(Default)]
 pub(crate) struct Search {
-    count: usize,
-    /// Their places in the bundle.
-    ray: Vec<u32>,
-    origin: [Block; 3],
-    direction: [Block; 3],
-    /// Where each ray is, how far it looks, and where it ends.
-    t: Block,
-    width: Block,
-    end: Block,
-    /// How far from a zero a ray may stop.
-    tolerance: Block,
-    steps: Vec<u32>,
+    rays: Squad<2>,
     /// What became of each ray, as a [`Verdict`].
     verdict: Block,
 }
@@ -95,12 +85,15 @@ impl Search {
         pace: Pace,
         place: u32,
     ) -> u64 {
-        self.gather(bundle, rows, pace);
+        self.rays.gather(bundle, rows, |ray| {
+            let (enter, leave) = (bundle.enter.0[ray], bundle.leave.0[ray]);
+            [leave - enter, (bundle.base.0[ray] + bundle.growth.0[ray] * enter) * pace.scale]
+        });
         let level = encloser.level();
         let mut models = 0;
-        while self.count > 0 {
-            models += self.count as u64;
-            let lanes = self.count.next_multiple_of(LANES);
+        while self.rays.count() > 0 {
+            models += self.rays.count() as u64;
+            let lanes = self.rays.lanes();
             let zeros = encloser.models(part, lanes, |stretches| self.stretch(lanes, stretches));
             simd::with(
                 level,
@@ -121,40 +114,15 @@ impl Search {
         models
     }
 
-    /// Takes the rays of some rows that meet the cell.
-    fn gather(&mut self, bundle: &Bundle, rows: Rows, pace: Pace) {
-        self.ray.resize(RAYS, 0);
-        self.steps.resize(RAYS, 0);
-        self.count = 0;
-        for ray in rows.starts().flat_map(|start| start..start + LANES) {
-            let (enter, leave) = (bundle.enter.0[ray], bundle.leave.0[ray]);
-            if leave == f32::NEG_INFINITY {
-                continue;
-            }
-            let place = self.count;
-            self.count += 1;
-            self.ray[place] = ray as u32;
-            for axis in 0..3 {
-                self.origin[axis].0[place] = bundle.origin[axis].0[ray];
-                self.direction[axis].0[place] = bundle.direction[axis].0[ray];
-            }
-            self.t.0[place] = enter;
-            self.width.0[place] = leave - enter;
-            self.end.0[place] = leave;
-            self.tolerance.0[place] = (bundle.base.0[ray] + bundle.growth.0[ray] * enter) * pace.scale;
-            self.steps[place] = bundle.steps[ray];
-        }
-    }
-
     /// Writes the stretches that lie ahead.
     fn stretch(&self, lanes: usize, to: StretchLanes<'_>) {
-        let numbers = to.origin.into_iter().zip(&self.origin).chain(to.direction.into_iter().zip(&self.direction));
-        for (to, from) in numbers {
+        let Squad { origin, direction, t, end, further: [width, _], .. } = &self.rays;
+        for (to, from) in to.origin.into_iter().zip(origin).chain(to.direction.into_iter().zip(direction)) {
             to.copy_from_slice(&from.0[..lanes]);
         }
         for lane in 0..lanes {
-            let near = self.t.0[lane];
-            let far = (near + self.width.0[lane]).min(self.end.0[lane]);
+            let near = t.0[lane];
+            let far = (near + width.0[lane]).min(end.0[lane]);
             to.middle[lane] = 0.5 * near + 0.5 * far;
             to.half[lane] = 0.5 * (far - near) * COVER;
         }
@@ -163,8 +131,9 @@ impl Search {
     /// Draws the conclusions from models along the stretches ahead of a row.
     #[inline(always)]
     fn step(&mut self, start: usize, look: &Look) {
-        let (t, width) = (row_mut(&mut self.t, start), row_mut(&mut self.width, start));
-        let (end, tolerance) = (row(&self.end, start), row(&self.tolerance, start));
+        let Squad { t, end, further: [width, tolerance], .. } = &mut self.rays;
+        let (t, width) = (row_mut(t, start), row_mut(width, start));
+        let (end, tolerance) = (row(end, start), row(tolerance, start));
         let verdict = row_mut(&mut self.verdict, start);
         for lane in 0..LANES {
             let (near, ahead) = (t[lane], width[lane]);
@@ -209,27 +178,20 @@ impl Search {
 
     /// Notes the rays that are done, and moves the others together.
     fn sort_out(&mut self, bundle: &mut Bundle, pace: Pace, place: u32) {
-        let mut kept = 0;
-        for lane in 0..self.count {
-            let ray = self.ray[lane] as usize;
-            let steps = self.steps[lane] + 1;
-            let (t, verdict) = (self.t.0[lane], self.verdict.0[lane]);
+        let Self { rays, verdict } = self;
+        rays.steps.iter_mut().for_each(|steps| *steps += 1);
+        rays.retain(|rays, lane, ray| {
+            let (t, steps) = (rays.t.0[lane], rays.steps[lane]);
             bundle.steps[ray] = steps;
-            if verdict == Verdict::HIT {
-                bundle.find(ray, Fate::Hit, t, 0.0, place);
-            } else if verdict == Verdict::UNKNOWN || (verdict == Verdict::OPEN && steps >= pace.max_steps) {
-                bundle.find(ray, Fate::Exhausted, t, 0.0, place);
-            } else if verdict == Verdict::OPEN {
-                self.ray[kept] = ray as u32;
-                self.steps[kept] = steps;
-                let Self { origin, direction, t, width, end, tolerance, .. } = self;
-                for numbers in origin.iter_mut().chain(direction).chain([t, width, end, tolerance]) {
-                    numbers.0[kept] = numbers.0[lane];
-                }
-                kept += 1;
-            }
-        }
-        self.count = kept;
+            let fate = match verdict.0[lane] {
+                Verdict::HIT => Fate::Hit,
+                Verdict::UNKNOWN => Fate::Exhausted,
+                Verdict::OPEN if steps >= pace.max_steps => Fate::Exhausted,
+                verdict => return verdict == Verdict::OPEN,
+            };
+            bundle.find(ray, fate, t, 0.0, place);
+            false
+        });
     }
 }
 
