@@ -9,7 +9,7 @@ use crate::kernel::{
 use crate::lower::{Listing, Op, Operand};
 use crate::program::Program;
 use crate::shape::Kind;
-use crate::simd::Level;
+use crate::simd::{self, Level};
 use std::marker::PhantomData;
 
 /// A number type that batches are computed in.
@@ -47,7 +47,12 @@ pub(crate) struct PrimitiveCall<'a, N: Number> {
     /// The largest slope; infinite if it is not known.
     pub(crate) slope: f32,
     pub(crate) reach: &'a N::Reach,
+    /// [`SCRATCH`] blocks with whatever is in them.
+    pub(crate) scratch: &'a mut [Block],
 }
+
+/// Blocks that a primitive may need besides.
+const SCRATCH: usize = 6;
 
 /// The registers of operations over numbers of one type.
 #[derive(Default)]
@@ -55,6 +60,7 @@ pub(crate) struct Bank<N: Number> {
     pub(crate) points: Vec<Block>,
     pub(crate) reach: Vec<N::Reach>,
     values: Vec<Block>,
+    scratch: Vec<Block>,
     number: PhantomData<N>,
 }
 
@@ -68,6 +74,7 @@ impl<N: Number> Bank<N> {
         };
         grow(&mut self.points, listing.points * 3 * N::COMPONENTS);
         grow(&mut self.values, listing.values * N::COMPONENTS);
+        grow(&mut self.scratch, SCRATCH);
         self.reach.resize(listing.points.max(self.reach.len()), N::Reach::default());
     }
 
@@ -104,7 +111,8 @@ impl<N: Number> Bank<N> {
                 let before = before.map(|before| values.at(before));
                 let (at, slope) = (&constants[at.range()], constants[slope as usize]);
                 let job = PrimitiveJob { points, at, constants: &constants[run.range()], before, out, count };
-                N::primitive(level, PrimitiveCall { table, job, slope, reach: &self.reach[point] });
+                let (reach, scratch) = (&self.reach[point], &mut self.scratch[..]);
+                N::primitive(level, PrimitiveCall { table, job, slope, reach, scratch });
             }
             Op::Combine { table, a, b, out, constants: run } => {
                 let (values, out) = apart::<N>(&mut self.values, out);
@@ -365,7 +373,7 @@ impl Number for Models {
 
 /// A primitive along a line: its value in the middle, and as much to either side as its largest slope allows.
 fn primitive_model(level: Level, call: PrimitiveCall<'_, Models>) {
-    let PrimitiveCall { table, mut job, slope, reach } = call;
+    let PrimitiveCall { table, mut job, slope, reach, .. } = call;
     if let Some(kernel) = table.models {
         return kernel(level, &mut job);
     }
@@ -407,40 +415,67 @@ over_boxes!(Jets, 4, jets, affine_jets, JETS);
 /// For distances this is as narrow as an enclosure can be, in contrast to what the formula yields on intervals, and it needs
 /// no kernel of its own.
 fn primitive_over_boxes<N: Number<Reach = Reach>>(level: Level, call: PrimitiveCall<'_, N>) {
-    let PrimitiveCall { table, job, slope, reach } = call;
+    let PrimitiveCall { table, job, slope, reach, scratch } = call;
     let PrimitiveJob { points, at, constants, before, out, count } = job;
-    let mut middle: [Block; 3] = Default::default();
-    let mut radius = Block::default();
-    let mut size = Block::default();
-    for axis in 0..3 {
-        let (lo, hi) = (&points[axis * N::COMPONENTS], &points[axis * N::COMPONENTS + 1]);
-        let offset = at[axis].abs();
-        for lane in 0..count {
-            let (lo, hi) = (lo.0[lane], hi.0[lane]);
-            let half = 0.5 * (hi - lo) * WIDER;
-            middle[axis].0[lane] = 0.5 * lo + 0.5 * hi;
-            radius.0[lane] += half * half;
-            size.0[lane] += lo.abs().max(hi.abs()) + offset;
-        }
-    }
-    let value = &mut [Block::default()];
-    let mut job = PrimitiveJob { points: &middle, at, constants, before: None, out: value, count };
-    (table.kernels.values)(level, &mut job);
-    let [value] = value;
-    for lane in 0..count {
-        let radius = (radius.0[lane].sqrt() * WIDER).min(reach.radius.0[lane]);
-        let v = value.0[lane];
-        let slack = slope * radius * WIDER + ROUNDING * (size.0[lane] + v.abs());
-        let is_known = slack < f32::INFINITY;
-        out[0].0[lane] = if is_known { v - slack } else { f32::NEG_INFINITY };
-        out[1].0[lane] = if is_known { v + slack } else { f32::INFINITY };
-        if let [_, _, least, most] = out {
-            let speed = slope * reach.speed.0[lane] * WIDER;
-            (least.0[lane], most.0[lane]) =
-                if speed < f32::INFINITY { (-speed, speed) } else { (f32::NEG_INFINITY, f32::INFINITY) };
-        }
-    }
-    let Some(before) = before else { return };
+    let (middle, rest) = scratch.split_at_mut(3);
+    let [radius, size, value] = rest else { unreachable!("six blocks") };
+    simd::with(
+        level,
+        #[inline(always)]
+        || {
+            let (radius, size) = (&mut radius.0[..count], &mut size.0[..count]);
+            radius.fill(0.0);
+            size.fill(0.0);
+            for (axis, middle) in middle.iter_mut().enumerate() {
+                let (lo, hi) = (&points[axis * N::COMPONENTS].0[..count], &points[axis * N::COMPONENTS + 1].0[..count]);
+                let middle = &mut middle.0[..count];
+                let offset = at[axis].abs();
+                for lane in 0..count {
+                    let (lo, hi) = (lo[lane], hi[lane]);
+                    let half = 0.5 * (hi - lo) * WIDER;
+                    middle[lane] = 0.5 * lo + 0.5 * hi;
+                    radius[lane] += half * half;
+                    size[lane] += lo.abs().max(hi.abs()) + offset;
+                }
+            }
+        },
+    );
+    let own = std::slice::from_mut(value);
+    (table.kernels.values)(level, &mut PrimitiveJob { points: middle, at, constants, before: None, out: own, count });
+    simd::with(
+        level,
+        #[inline(always)]
+        || {
+            let [lo, hi, slopes @ ..] = out else { unreachable!("two ends") };
+            let (lo, hi) = (&mut lo.0[..count], &mut hi.0[..count]);
+            let (radius, size, value) = (&radius.0[..count], &size.0[..count], &value.0[..count]);
+            let around = &reach.radius.0[..count];
+            for lane in 0..count {
+                let radius = (radius[lane].sqrt() * WIDER).min(around[lane]);
+                let v = value[lane];
+                let slack = slope * radius * WIDER + ROUNDING * (size[lane] + v.abs());
+                let is_known = slack < f32::INFINITY;
+                lo[lane] = if is_known { v - slack } else { f32::NEG_INFINITY };
+                hi[lane] = if is_known { v + slack } else { f32::INFINITY };
+            }
+            if let [least, most] = slopes {
+                for lane in 0..count {
+                    let speed = slope * reach.speed.0[lane] * WIDER;
+                    let is_known = speed < f32::INFINITY;
+                    least.0[lane] = if is_known { -speed } else { f32::NEG_INFINITY };
+                    most.0[lane] = if is_known { speed } else { f32::INFINITY };
+                }
+            }
+            if let (Some(before), []) = (before, slopes) {
+                let (lo_before, hi_before) = (&before[0].0[..count], &before[1].0[..count]);
+                for lane in 0..count {
+                    lo[lane] = lo[lane].min(lo_before[lane]);
+                    hi[lane] = hi[lane].min(hi_before[lane]);
+                }
+            }
+        },
+    );
+    let (Some(before), [_, _, _, _]) = (before, &*out) else { return };
     for lane in 0..count {
         let (a, b) = ([before[0].0[lane], before[1].0[lane]], [out[0].0[lane], out[1].0[lane]]);
         out[0].0[lane] = a[0].min(b[0]);

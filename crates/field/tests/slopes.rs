@@ -42,8 +42,14 @@ fn fields(random: &mut Random) -> Vec<(String, Field)> {
         all.push((format!("placed {text}"), turned(cut)));
         let stretched = formula(text).stretch([0.5, 1.5, -1.0]).offset(0.1).shell(0.2);
         all.push((format!("stretched {text}"), stretched));
-        let blend = smooth_union(0.3, [turned(formula(text).into()), tree(2, random)]);
-        all.push((format!("blended {text}"), blend - tree(1, random)));
+        let mut solid = |depth| loop {
+            let tree = tree(depth, random);
+            if analyse(&tree).0.is_some_and(|analysis| analysis.contract.signed) {
+                break tree;
+            }
+        };
+        let blend = smooth_union(0.3, [turned(formula(text).into()), solid(2)]);
+        all.push((format!("blended {text}"), blend - solid(1)));
     }
     all
 }

@@ -67,7 +67,9 @@ pub(crate) struct Bundle {
     /// The field value where each ray is.
     pub(crate) value: Block,
     fate: [Fate; RAYS],
+    /// Where each ray ended, and the value there: others of its row may go on.
     t: [f32; RAYS],
+    last: [f32; RAYS],
     /// The rays that met something, and in which place, in the order in which they did.
     found: Vec<(u32, u32)>,
 }
@@ -139,6 +141,7 @@ impl Default for Bundle {
             value: Block::default(),
             fate: [Fate::Passed; RAYS],
             t: [0.0; RAYS],
+            last: [0.0; RAYS],
             found: Vec::new(),
         }
     }
@@ -318,7 +321,7 @@ impl Bundle {
     pub(crate) fn find(&mut self, ray: usize, fate: Fate, t: f32, value: f32, place: u32) {
         self.fate[ray] = fate;
         self.t[ray] = t;
-        self.value.0[ray] = value;
+        self.last[ray] = value;
         self.far.0[ray] = f32::NEG_INFINITY;
         self.found.push((ray as u32, place));
     }
@@ -336,7 +339,7 @@ impl Bundle {
                 id: self.id[ray],
                 fate,
                 t: self.t[ray],
-                value: if place == End::NOWHERE { f32::INFINITY } else { self.value.0[ray] },
+                value: if place == End::NOWHERE { f32::INFINITY } else { self.last[ray] },
                 steps: self.steps[ray],
                 factor: if fate == Fate::Hit { 0.0 } else { self.factor.0[ray] },
                 place,

@@ -128,4 +128,3 @@ fn advance(rays: &mut Squad<4>, start: usize, values: &Row, goes: &mut Row, pace
         steps[ray] += u32::from(moves);
     }
 }
-

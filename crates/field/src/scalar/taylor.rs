@@ -6,7 +6,8 @@
 //! rounding errors go into `r`. Halving the range of the parameter makes `r` smaller by a factor of 32, where an interval
 //! only gets narrower by 2; and a polynomial formula up to that degree leaves rounding errors alone.
 //!
-//! `r` is infinite where nothing is known. Where a function has no value all over the range, `p` is NaN.
+//! `r` is infinite where nothing is known. Where a function has no value all over the range, `p` is NaN; where it has one on a
+//! part of the range alone, the model holds there.
 
 use super::{Intervals, LaneTrilean, Lanes, Scalar};
 use fearless_simd::Simd;
