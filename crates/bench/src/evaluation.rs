@@ -30,7 +30,8 @@ pub fn program(field: Field) -> Program {
 /// All rows whose names `is_wanted`.
 pub fn rows(is_wanted: &dyn Fn(&str) -> bool) -> Vec<Row<'static>> {
     let formula = format!("{ITERATIONS} iterations (formula, written out)");
-    let fields: [(String, fn() -> Field, bool); 5] = [
+    type Subject = (String, fn() -> Field, bool);
+    let fields: [Subject; 5] = [
         ("csg20: 10 primitives, 9 operators".into(), fields::csg20, true),
         (format!("many256: {MANY} primitives"), || fields::many(MANY), true),
         ("gyroid in a sphere (formula)".into(), fields::gyroid, false),

@@ -197,9 +197,8 @@ fn world_to_model(camera: &Camera, scale: f64) -> Matrix4<f32> {
     Matrix4::new_translation(&target) * turned
 }
 
-fn bulk<'a, F: Function>(shape: &Shape<F>, [x, y, z]: [&'a [f32]; 3]) -> Box<dyn FnMut() -> f32 + 'a>
+fn bulk<'a, F: Function + 'a>(shape: &Shape<F>, [x, y, z]: [&'a [f32]; 3]) -> Box<dyn FnMut() -> f32 + 'a>
 where
-    F: 'a,
     F::FloatSliceEval: 'a,
     <F::FloatSliceEval as BulkEvaluator>::Tape: 'a,
 {
@@ -208,9 +207,8 @@ where
     Box::new(move || evaluator.eval(&tape, x, y, z).expect("there are no variables")[0])
 }
 
-fn bulk_gradients<'a, F: Function>(shape: &Shape<F>, [x, y, z]: &'a [Vec<Grad>; 3]) -> Box<dyn FnMut() -> f32 + 'a>
+fn bulk_gradients<'a, F: Function + 'a>(shape: &Shape<F>, [x, y, z]: &'a [Vec<Grad>; 3]) -> Box<dyn FnMut() -> f32 + 'a>
 where
-    F: 'a,
     F::GradSliceEval: 'a,
     <F::GradSliceEval as BulkEvaluator>::Tape: 'a,
 {

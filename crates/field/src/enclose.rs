@@ -163,10 +163,11 @@ impl<'p> Encloser<'p> {
                 }
             },
         );
+        let [ox, oy, oz, _, _, _, middle, half] = lanes.each_ref().map(|block| &block.0[..count]);
         let reach = &mut models.reach[0];
-        let size = |lane: usize| middle[lane].abs() + lanes[..3].iter().map(|origin| origin.0[lane].abs()).sum::<f32>();
-        for lane in 0..count {
-            reach.radius.0[lane] = half[lane] * LONGEST + 2.0 * ROUNDING * (size(lane) + half[lane]);
+        for (lane, radius) in reach.radius.0[..count].iter_mut().enumerate() {
+            let size = ox[lane].abs() + oy[lane].abs() + oz[lane].abs() + middle[lane].abs() + half[lane];
+            *radius = half[lane] * LONGEST + 2.0 * ROUNDING * size;
         }
         reach.speed.0[..count].fill(LONGEST);
         models.run(self.program, &listing.ops, self.level, count);

@@ -205,7 +205,7 @@ fn collect(bundle: &mut Bundle, rows: Rows, place: u32, is_soft: bool) {
         let mut stopped = 0;
         for lane in 0..LANES {
             let is_dark = is_soft & (factor[lane] < NEGLIGIBLE);
-            let stops = (end[lane] > f32::NEG_INFINITY) & (is_dark | !(t[lane] >= end[lane]));
+            let stops = (end[lane] > f32::NEG_INFINITY) & (is_dark | (t[lane] < end[lane]));
             stopped |= u32::from(stops) << lane;
         }
         while stopped != 0 {

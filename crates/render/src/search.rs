@@ -289,14 +289,16 @@ impl Look {
     #[inline(always)]
     fn at(first: &Model, cut: Option<&Model>) -> Self {
         let (mut at, mut width) = ([-1.0_f32; LANES], [2.0_f32; LANES]);
-        let (mut verdict, mut descent) = ([Verdict::OPEN; LANES], [1.0_f32; LANES]);
-        let mut is_of_cut = [false; LANES];
-        for lane in 0..LANES {
-            // Where the field has no value it has no zero.
-            let is_known = (first.r[lane] < f32::INFINITY) & cut.is_none_or(|cut| cut.r[lane] < f32::INFINITY);
-            let known = if is_known { Verdict::OPEN } else { Verdict::UNKNOWN };
-            verdict[lane] = if first.p[0][lane].is_nan() { Verdict::CLEAR } else { known };
-        }
+        let (mut descent, mut is_of_cut) = ([1.0_f32; LANES], [false; LANES]);
+        let mut verdict: Row = std::array::from_fn(
+            #[inline(always)]
+            |lane| {
+                let is_known = (first.r[lane] < f32::INFINITY) & cut.is_none_or(|cut| cut.r[lane] < f32::INFINITY);
+                let known = if is_known { Verdict::OPEN } else { Verdict::UNKNOWN };
+                // Where the field has no value it has no zero.
+                if first.p[0][lane].is_nan() { Verdict::CLEAR } else { known }
+            },
+        );
         for _ in 0..LOOKS {
             let mut open = 0;
             for lane in 0..LANES {

@@ -95,7 +95,7 @@ fn shapes_have_the_same_values_in_sections() {
         formula("x^2 + 2y^2 + z^2 - 0.4").at([-0.5, 0.2, 0.1]),
     ];
     let [a, b, c] = parts;
-    let field = smooth_union(0.2, [a, b.clone()]) - sphere(0.4).at([0.2, 0.0, 0.1]) | c;
+    let field = (smooth_union(0.2, [a, b.clone()]) - sphere(0.4).at([0.2, 0.0, 0.1])) | c;
     for section in [
         Section::from_above(DVec3::ZERO, 3.0, 2.0),
         Section::from_above(DVec3::new(0.0, 0.0, 0.2), 5.0, 5.0),

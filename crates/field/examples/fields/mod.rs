@@ -1,5 +1,7 @@
 //! Fields that speed is measured with.
 
+#![allow(unreachable_pub, reason = "the benchmark includes this file as a public module")]
+
 use freikugel_field::{Field, shapes::*};
 
 /// 10 primitives with 9 operators, some of them blends.

@@ -273,6 +273,7 @@ impl<I: Simd> Mul for Taylor<I> {
 impl<I: Simd> Div for Taylor<I> {
     type Output = Self;
     #[inline(always)]
+    #[allow(clippy::suspicious_arithmetic_impl, reason = "a quotient is a product with the reciprocal")]
     fn div(self, rhs: Self) -> Self {
         self * rhs.reciprocal()
     }

@@ -1,5 +1,5 @@
 //! Mandelbulb: the points whose orbits under z^k + p stay bounded, with the power of White and Nylander (2009), which raises
-//! the length to the power and multiplies both polar angles with it. The bound is that of [`super::escape`].
+//! the length to the power and multiplies both polar angles with it. The bound is that of `escape.rs`.
 //!
 //! With r the length, θ the angle from the axis and φ the one around it, the power stretches by k r^(k-1) along r and θ,
 //! and by k r^(k-1) |sin kθ / sin θ| along φ. No angle is computed: with ρ = r sin θ and z = r cos θ,

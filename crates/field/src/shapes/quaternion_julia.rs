@@ -1,5 +1,5 @@
 //! Quaternion Julia set: the points of a three-dimensional slice whose orbits under z^k + c stay bounded (Norton, "Generation
-//! and Display of Geometric Fractals in 3-D", 1982). The bound is that of [`super::escape`].
+//! and Display of Geometric Fractals in 3-D", 1982). The bound is that of `escape.rs`.
 //!
 //! A power of a quaternion lies in the plane of its real part and its imaginary direction, and is that of a complex number
 //! there. By the product rule its derivative along d is the sum of the k products z^i d z^(k-1-i), so that it stretches by
