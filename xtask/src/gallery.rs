@@ -26,7 +26,7 @@ pub(crate) fn gallery() -> Result {
     let root = root();
     for scene in scenes(&root.join("scenes"))? {
         let below = scene.strip_prefix(root.join("scenes")).expect("found below it").with_extension("png");
-        make(&root, &below, &["render", &scene.display().to_string()])?;
+        make(&root, &below, &["render", "--small", &scene.display().to_string()])?;
     }
     for (file, command, scene, arguments) in SHEETS {
         let scene = root.join("scenes").join(scene).display().to_string();

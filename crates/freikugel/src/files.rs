@@ -1,6 +1,8 @@
 //! From scenes to files of pictures. A file appears complete or not at all.
 
-use freikugel_render::{EncodeError, Options, RenderError, Rendered, Tone, encode_exr, encode_png, render};
+use freikugel_render::{
+    Compression, EncodeError, Options, RenderError, Rendered, Tone, encode_exr, encode_png, render,
+};
 use freikugel_scene::{Picture, Scene};
 use std::fmt;
 use std::io::{self, Write};
@@ -26,13 +28,18 @@ impl Format {
         }
     }
 
-    /// The file's bytes.
+    /// The file's bytes. The compression is that of PNG.
     ///
     /// # Errors
     /// If the picture can't be encoded so.
-    pub fn encode(self, rendered: &Rendered, picture: &Picture) -> Result<Vec<u8>, EncodeError> {
+    pub fn encode(
+        self,
+        rendered: &Rendered,
+        picture: &Picture,
+        compression: Compression,
+    ) -> Result<Vec<u8>, EncodeError> {
         match self {
-            Self::Png => encode_png(&rendered.image, &Tone::of(picture)),
+            Self::Png => encode_png(&rendered.image, &Tone::of(picture), compression),
             Self::Exr => encode_exr(&rendered.image),
         }
     }
@@ -92,7 +99,7 @@ impl Render for Scene {
     fn save(&self, rendered: &Rendered, path: impl AsRef<Path>) -> Result<(), SaveError> {
         let path = path.as_ref();
         let format = Format::of(path).ok_or_else(|| SaveError::Format(path.to_owned()))?;
-        let bytes = format.encode(rendered, &self.picture).map_err(SaveError::Encode)?;
+        let bytes = format.encode(rendered, &self.picture, Compression::Quick).map_err(SaveError::Encode)?;
         let write = || Output::open(path)?.write(&bytes);
         write().map_err(|error| SaveError::Write(path.to_owned(), error))
     }

@@ -563,3 +563,17 @@ fn mistakes_in_graphs_are_shown_with_their_places() {
     }
     assert_eq!(folder.names(), ["bad.vm"]);
 }
+
+#[test]
+fn a_small_file_has_the_same_pixels() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL);
+    for args in
+        [&["render", "ball.json", "-o", "quick.png"][..], &["render", "ball.json", "-o", "small.png", "--small"]]
+    {
+        assert_eq!(code(&folder.run(args)), 0);
+    }
+    assert_eq!(pixels(&folder.path("quick.png")), pixels(&folder.path("small.png")));
+    let length = |name: &str| std::fs::metadata(folder.path(name)).expect("there").len();
+    assert!(length("small.png") < length("quick.png"));
+}

@@ -7,7 +7,7 @@
 //!
 //! ```
 //! use freikugel_field::shapes::sphere;
-//! use freikugel_render::{Options, Tone, encode_png, render};
+//! use freikugel_render::{Compression, Options, Tone, encode_png, render};
 //! use freikugel_scene::{Light, Object, Scene, Sun};
 //!
 //! let scene = Scene {
@@ -18,7 +18,8 @@
 //! let options = Options { width: 32, height: 18, samples: 4, ..Options::of(&scene) };
 //! let picture = render(&scene, &options, &())?;
 //! assert_eq!(picture.stats.unresolved.pixels, 0);
-//! assert!(encode_png(&picture.image, &Tone::of(&scene.picture))?.starts_with(b"\x89PNG"));
+//! let file = encode_png(&picture.image, &Tone::of(&scene.picture), Compression::Quick)?;
+//! assert!(file.starts_with(b"\x89PNG"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -64,7 +65,7 @@ mod view;
 mod wave;
 
 pub use compare::{Comparison, Outcome, Trial, Verdict, compare};
-pub use encode::{EncodeError, encode_exr, encode_png};
+pub use encode::{Compression, EncodeError, encode_exr, encode_png};
 pub use image::{Image, Tone, srgb_encode8};
 pub use layers::{Layer, Layers};
 pub use options::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_TILE, Options, OptionsError, Rect};

@@ -7,7 +7,7 @@ mod common;
 use common::*;
 use freikugel_field::MaterialId;
 use freikugel_field::shapes::*;
-use freikugel_render::{Image, Options, Tone, encode_png};
+use freikugel_render::{Compression, Image, Options, Tone, encode_png};
 use freikugel_scene::{
     Ambient, Background, Camera, Light, Material, Model, Object, Occlusion, Overbright, Pattern, Point, Scene, Shadow,
     Spot, Sun,
@@ -25,7 +25,7 @@ const OUTLIERS: usize = 12;
 
 fn check(name: &str, scene: &Scene, tone: &Tone) {
     let options = Options { samples: 9, ..options(64, 48) };
-    let file = encode_png(&picture(scene, &options).image, tone).expect("a file");
+    let file = encode_png(&picture(scene, &options).image, tone, Compression::Thorough).expect("a file");
     let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(format!("{name}.png"));
     if std::env::var_os("BLESS").is_some() {
         fs::create_dir_all(kept.parent().expect("a directory")).expect("a place for golden pictures");
@@ -50,7 +50,8 @@ fn check(name: &str, scene: &Scene, tone: &Tone) {
         let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("golden");
         fs::create_dir_all(&directory).expect("a place for the difference");
         let path = directory.join(format!("{name}.png"));
-        let panels = encode_png(&Image::new(3 * 64, 48, colors), &Tone::default()).expect("a file");
+        let panels =
+            encode_png(&Image::new(3 * 64, 48, colors), &Tone::default(), Compression::Thorough).expect("a file");
         fs::write(&path, panels).expect("room for the difference");
         panic!("{outliers} pixels of {name} differ; see new, old, difference in {}", path.display());
     }
