@@ -170,18 +170,23 @@ fn intervals_contain_and_are_narrow() {
     // Outward rounding adds two units in the last place with each operation; the largest programs here have a few
     // hundred operations on numbers of size 10, and the iterated foot point multiplies what it starts with.
     const POINT_WIDTH: f64 = 1e-9;
+    // Each step of an orbit multiplies widths, inside the set and close to it far more than the values. How much of the space
+    // here that is depends on the set and on what was done to it; it is a few per cent of all points, and none of them is
+    // as far from the surface as this.
+    const NEAR_ORBITS: f64 = 1.0;
+    const WIDE_SHARE: f64 = 0.15;
     const CELL: f64 = 0.1;
+    let (mut orbits, mut wide) = (0, 0);
     for (name, seed, field) in every_shape(CALLS) {
         let program = program(&field);
-        // Each step of an orbit multiplies widths, inside the set far more than the values; most points lie outside.
         let is_orbit = common::notation(&field).contains("julia") || common::notation(&field).contains("bulb");
-        let mut wide = 0;
         let mut random = Random::new(seed + 300);
         for _ in 0..60 {
             let corner = random.point(2.0);
-            let at = program.interval(corner.to_array().map(Interval::point));
-            assert!(at.contains(program.value(corner)), "{name} {seed} at {corner}");
-            if is_orbit && at.width() >= POINT_WIDTH {
+            let (at, value) = (program.interval(corner.to_array().map(Interval::point)), program.value(corner));
+            assert!(at.contains(value), "{name} {seed} at {corner}");
+            orbits += usize::from(is_orbit);
+            if is_orbit && at.width() >= POINT_WIDTH && value.abs() < NEAR_ORBITS {
                 wide += 1;
             } else {
                 assert!(at.width() < POINT_WIDTH, "{name} {seed} at {corner}: width {}", at.width());
@@ -204,8 +209,9 @@ fn intervals_contain_and_are_narrow() {
                 highest - lowest
             );
         }
-        assert!(wide <= 20, "{name} {seed}: {wide} of 60 points have wide intervals");
     }
+    println!("{wide} of {orbits} points of fractals have wide intervals");
+    assert!(wide as f64 <= WIDE_SHARE * orbits as f64, "{wide} of {orbits} points of fractals have wide intervals");
 }
 
 #[test]
