@@ -3,7 +3,7 @@
 use freikugel_field::formula::{Formula, MOST_NESTED, Term, functions};
 use freikugel_field::{Dual, Interval, Scalar, vec3};
 use proptest::prelude::*;
-use proptest::test_runner::{Config, TestRunner};
+use proptest::test_runner::{Config, RngSeed, TestRunner};
 use std::cell::Cell;
 use std::f64::consts::{E, PI, TAU};
 
@@ -586,10 +586,21 @@ fn points() -> impl Strategy<Value = [f64; 3]> {
     [-3.0..3.0, -3.0..3.0, -3.0..3.0]
 }
 
-/// Runs `test` on many trees with points; it says whether a case told it anything. At least half of them must.
+/// Another one makes other trees.
+const SEED: u64 = 1;
+
+/// What is said of a constant like 1/0.
+const NO_VALUE: &str = "no finite value";
+
+/// Runs `test` on many trees with points, the same ones each time; it says whether a case told it anything. At least half of them must.
 fn many<T: Strategy<Value = Tree>>(trees: T, test: impl Fn(Tree, [f64; 3]) -> Result<bool, TestCaseError>) {
     let (all, telling) = (Cell::new(0_u32), Cell::new(0_u32));
-    let mut runner = TestRunner::new(Config { cases: 100000, failure_persistence: None, ..Config::default() });
+    let mut runner = TestRunner::new(Config {
+        cases: 100_000,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(SEED),
+        ..Config::default()
+    });
     let result = runner.run(&(trees, points()), |(tree, point)| {
         let tells = test(tree, point)?;
         all.set(all.get() + 1);
@@ -606,7 +617,7 @@ fn many<T: Strategy<Value = Tree>>(trees: T, test: impl Fn(Tree, [f64; 3]) -> Re
 fn of(tree: &Tree) -> Result<Option<Formula>, TestCaseError> {
     match Formula::parse(&tree.text()) {
         Ok(formula) => Ok(Some(formula)),
-        Err(error) if error.message.contains("no finite value") => Ok(None),
+        Err(error) if error.message.contains(NO_VALUE) => Ok(None),
         Err(error) => Err(TestCaseError::fail(error.to_string())),
     }
 }
@@ -686,10 +697,12 @@ fn derivatives_agree_with_dual_numbers() {
         let mut tells = false;
         for axis in 0..3 {
             let derivative = formula.derivative(axis);
-            prop_assert_eq!(
-                Formula::parse(derivative.text()).map(|again| again.terms() == derivative.terms()),
-                Ok(true)
-            );
+            match Formula::parse(derivative.text()) {
+                Ok(again) => prop_assert!(again.terms() == derivative.terms(), "{derivative}"),
+                // The square of a huge constant.
+                Err(error) if error.message.contains(NO_VALUE) => continue,
+                Err(error) => prop_assert!(false, "{derivative}: {error:?}"),
+            }
             let (slope, expected) = (derivative.value(point), dual.gradient[axis]);
             // How much rounding the terms of the derivative can do.
             let range = derivative.eval(point.map(Interval::point).into());
