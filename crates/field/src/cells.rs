@@ -50,8 +50,8 @@ pub struct Slope {
     /// An upper bound: no value in the box differs from another by more than this for each unit of distance. Infinite if
     /// none is known.
     pub bound: f32,
-    /// Whether smaller boxes could not have a much lower one.
-    pub is_tight: bool,
+    /// An upper bound of the slope in the middle.
+    pub middle: f32,
 }
 
 /// The hierarchy.
@@ -161,8 +161,8 @@ impl Cells {
                 Interval::new(middle - half, middle + half)
             };
             let bound = sloper.bound([0, 1, 2].map(|axis| side(axis, 1.0)));
-            let least = sloper.bound([0, 1, 2].map(|axis| side(axis, 0.0)));
-            Slope { bound: (bound as f32).next_up(), is_tight: bound <= TIGHT * least }
+            let middle = sloper.bound([0, 1, 2].map(|axis| side(axis, 0.0)));
+            Slope { bound: (bound as f32).next_up(), middle: (middle as f32).next_up() }
         })
     }
 }
@@ -171,7 +171,14 @@ impl Cells {
 const AROUND: f64 = 1.0 + 1e-4;
 
 /// A bound of the slope over a box that is larger than that in its middle by no more than this is tight.
-const TIGHT: f64 = 1.25;
+const TIGHT: f32 = 1.25;
+
+impl Slope {
+    /// Whether smaller boxes could not have a much lower bound.
+    pub fn is_tight(&self) -> bool {
+        self.bound.is_finite() && self.bound <= TIGHT * self.middle
+    }
+}
 
 impl Cell {
     /// The middle.

@@ -5,6 +5,7 @@
 //! moved. What a ray ends with depends on nothing but the ray itself.
 
 use crate::march::{End, Fate, Start};
+use crate::rays::Starts;
 use crate::vector::Triple;
 use freikugel_field::kernel::{BATCH, Block, WIDEST};
 use freikugel_field::simd::{self, Level};
@@ -167,6 +168,37 @@ impl Bundle {
         self.growth.0[place] = start.tolerance[1];
         self.sharpness.0[place] = start.sharpness;
         self.steps[place] = start.steps;
+    }
+
+    /// Adds camera rays, as many of these as there is room for, and returns how many those are.
+    pub(crate) fn take(&mut self, starts: &Starts, rays: &[u32]) -> usize {
+        let taken = rays.len().min(RAYS - self.count);
+        let rays = &rays[..taken];
+        let places = self.count..self.count + taken;
+        self.count += taken;
+        let (first, last) = (rays[0] as usize, rays[taken - 1] as usize);
+        let are_neighbours = last - first + 1 == taken;
+        let copy = |to: &mut Block, from: &[f32]| {
+            let to = &mut to.0[places.clone()];
+            if are_neighbours {
+                to.copy_from_slice(&from[first..=last]);
+            } else {
+                to.iter_mut().zip(rays).for_each(|(to, &ray)| *to = from[ray as usize]);
+            }
+        };
+        let Starts { origin, direction, end, base, growth } = starts;
+        for axis in 0..3 {
+            copy(&mut self.origin[axis], &origin[axis]);
+            copy(&mut self.direction[axis], &direction[axis]);
+        }
+        copy(&mut self.far, end);
+        copy(&mut self.base, base);
+        copy(&mut self.growth, growth);
+        self.near.0[places.clone()].fill(0.0);
+        self.sharpness.0[places.clone()].fill(1.0);
+        self.steps[places.clone()].fill(0);
+        self.id[places].copy_from_slice(rays);
+        taken
     }
 
     /// Makes ready for a journey and returns what is around all rays.

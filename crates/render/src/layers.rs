@@ -58,18 +58,19 @@ impl Layers {
         &self.pixels
     }
 
-    /// Reads one wave of rays, one for each pixel.
-    pub(crate) fn collect(tracer: &Tracer<'_>, pixels: &mut [Layer]) {
-        for (pixel, (_, steps)) in pixels.iter_mut().zip(tracer.rays()) {
-            pixel.steps = steps;
+    /// Reads one wave of rays, one for each pixel, whose places among the pixels `place` tells.
+    pub(crate) fn collect(tracer: &Tracer<'_>, pixels: &mut [Layer], place: impl Fn(usize) -> usize) {
+        for (ray, &steps) in tracer.rays.steps[..tracer.rays.count()].iter().enumerate() {
+            pixels[place(ray)].steps = steps;
         }
         for &ray in &tracer.unresolved {
-            pixels[ray as usize].is_unresolved = true;
+            pixels[place(ray as usize)].is_unresolved = true;
         }
         for hit in &tracer.hits {
-            let pixel = &mut pixels[hit.ray as usize];
+            let ray = hit.ray as usize;
+            let pixel = &mut pixels[place(ray)];
             pixel.distance = hit.distance as f32;
-            pixel.depth = tracer.frame.view.depth(tracer.ray(hit.ray), hit.distance) as f32;
+            pixel.depth = tracer.frame.view.depth(&tracer.rays.ray(ray), hit.distance) as f32;
             pixel.normal = hit.normal;
             pixel.object = Some(hit.object);
         }

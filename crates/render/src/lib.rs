@@ -52,6 +52,7 @@ mod material;
 mod options;
 mod packet;
 mod prepare;
+mod rays;
 mod relaxed;
 mod run;
 mod search;

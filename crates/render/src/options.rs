@@ -43,7 +43,7 @@ pub struct Options {
 }
 
 /// A part of a frame, in pixels. Row 0 is on top.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Rect {
     /// The first column.
     pub x: u32,

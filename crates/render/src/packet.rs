@@ -8,18 +8,24 @@
 use crate::bundle::{Bundle, Rows, SHAFT_SEAM, Shaft};
 use crate::loose::Loose;
 use crate::march::{self, End, Pace, Start};
+use crate::rays::Rays;
 use crate::search::Search;
 use crate::vector::{Triple, length};
-use freikugel_field::{Cell, Cells, Encloser, Evaluator, Occupancy, Splitter};
+use freikugel_field::{Cell, Cells, Encloser, Evaluator, Occupancy, Slope, Splitter};
 
-/// A part with this many steps is not worth splitting further: the point and two primitives with their union.
-const SMALL_PART: usize = 8;
+/// A part with this many steps is not worth splitting further: some ten primitives and what joins them cost rays less than
+/// the way through more boxes.
+const SMALL_PART: usize = 24;
 
 /// The same for a part with a warp or a displacement, whose formulas count, too.
 const SMALL_WARPED: usize = 32;
 
 /// Where the field is steeper than this, a search by intervals needs fewer looks than a march would need steps.
 const STEEP: f32 = 16.0;
+
+/// As [`STEEP`], for formulas, relative to the slope in the middle of a cell: a march takes some more steps than a search
+/// needs models, each of which costs as much as six values.
+const EVEN: f32 = 2.0;
 
 /// A box this many pixels wide, as seen from the camera, is not split further: fewer rays meet it than fill the lanes.
 const CELL_PIXELS: f32 = 24.0;
@@ -68,6 +74,8 @@ pub(crate) struct Packet<'f> {
     /// By the signs of the directions. Those beyond the first `in_use` have no rays.
     bundles: [Vec<Bundle>; 8],
     in_use: [usize; 8],
+    /// Scratch memory: the places of rays that wait to be taken into bundles.
+    waiting: [Vec<u32>; 8],
     /// The cells in which something was met.
     pub(crate) places: Vec<&'f Cell>,
     search: Search,
@@ -77,8 +85,29 @@ pub(crate) struct Packet<'f> {
 impl<'f> Packet<'f> {
     /// Adds a ray.
     pub(crate) fn push(&mut self, start: &Start) {
-        let sign = |axis: usize| usize::from(start.direction[axis] < 0.0) << axis;
-        let octant = sign(0) | sign(1) | sign(2);
+        self.open(octant(start.direction)).push(start);
+    }
+
+    /// Adds those of some camera rays that march.
+    pub(crate) fn push_all(&mut self, rays: &Rays) {
+        let [x, y, z] = &rays.starts.direction;
+        let mut waiting = std::mem::take(&mut self.waiting);
+        for ray in rays.marching() {
+            waiting[octant([x[ray], y[ray], z[ray]])].push(ray as u32);
+        }
+        for (octant, waiting) in waiting.iter_mut().enumerate() {
+            let mut rest = &waiting[..];
+            while !rest.is_empty() {
+                let taken = self.open(octant).take(&rays.starts, rest);
+                rest = &rest[taken..];
+            }
+            waiting.clear();
+        }
+        self.waiting = waiting;
+    }
+
+    /// A bundle of an octant that is not full.
+    fn open(&mut self, octant: usize) -> &mut Bundle {
         let (bundles, in_use) = (&mut self.bundles[octant], &mut self.in_use[octant]);
         if *in_use == 0 || bundles[*in_use - 1].is_full() {
             *in_use += 1;
@@ -86,7 +115,7 @@ impl<'f> Packet<'f> {
                 bundles.push(Bundle::default());
             }
         }
-        bundles[*in_use - 1].push(start);
+        &mut bundles[*in_use - 1]
     }
 
     /// Whether there are no rays.
@@ -106,7 +135,7 @@ impl<'f> Packet<'f> {
         ends: &mut Vec<End>,
     ) -> u64 {
         self.places.clear();
-        let Self { bundles, in_use, places, search, loose } = self;
+        let Self { bundles, in_use, places, search, loose, .. } = self;
         let mut trip = Trip { space, quest, field, encloser, splitter, places, search, loose };
         let mut evaluations = 0;
         for (bundles, in_use) in bundles.iter_mut().zip(in_use) {
@@ -118,6 +147,13 @@ impl<'f> Packet<'f> {
         }
         evaluations
     }
+}
+
+/// The signs of a direction.
+#[inline(always)]
+fn octant(direction: Triple) -> usize {
+    let sign = |axis: usize| usize::from(direction[axis] < 0.0) << axis;
+    sign(0) | sign(1) | sign(2)
 }
 
 /// A packet on its way.
@@ -207,7 +243,10 @@ impl<'f> Trip<'_, 'f, '_> {
         if self.space.manner == Manner::Plain || cell.occupancy() != Occupancy::Surface || part.size() <= small {
             return true;
         }
-        if part.is_warped() && self.may_march() && part.size() <= SMALL_WARPED && self.space.cells.slope(cell).is_tight
+        if part.is_warped()
+            && self.may_march()
+            && part.size() <= SMALL_WARPED
+            && self.space.cells.slope(cell).is_tight()
         {
             return true;
         }
@@ -229,7 +268,8 @@ impl<'f> Trip<'_, 'f, '_> {
         self.cross(bundle, rows, root, pace)
     }
 
-    /// How rays march in a cell by the values of its part, if they can. Where space is warped, that depends on the cell.
+    /// How rays march in a cell by the values of its part, if they can. Where space is warped, that depends on the cell; and
+    /// formulas, too, are marched where their slope hardly changes: they are distances there but for a factor.
     fn pace_of(&self, cell: &Cell) -> Option<Pace> {
         let pace = self.space.pace;
         if !self.may_march() {
@@ -239,8 +279,9 @@ impl<'f> Trip<'_, 'f, '_> {
         if cell.part().is_measured() || (self.space.manner == Manner::Plain && self.quest != Quest::Least) {
             return Some(pace);
         }
-        let slope = cell.part().is_warped().then(|| self.space.cells.slope(cell).bound)?;
-        (slope > 0.0 && slope <= STEEP).then(|| Pace { scale: 1.0 / slope, ..pace })
+        let Slope { bound, middle } = self.space.cells.slope(cell);
+        let steepest = if cell.part().is_warped() { STEEP } else { EVEN * middle };
+        (bound > 0.0 && bound <= steepest && bound.is_finite()).then(|| Pace { scale: 1.0 / bound, ..pace })
     }
 
     /// Takes the rays of some rows along their stretches, on which the part of `cell` holds; without a pace, they search.

@@ -416,12 +416,14 @@ impl Tolerance {
 
     /// How far from the surface a camera ray may have stopped that has come from the camera to a point `t` units away
     /// and `offset` from the origin.
+    #[inline(always)]
     pub(crate) fn at(&self, t: f64, offset: f64) -> f64 {
         self.fixed + self.growth * t + ROUNDING * offset + self.power(t)
     }
 
     /// The tolerance on a ray's way from `t` to `end`, at `t` and per unit of distance further on. Where the tolerance
     /// bends, this is a straight line below it: a chord, or the tangent at `t`.
+    #[inline(always)]
     pub(crate) fn along(&self, t: f64, end: f64, offset: f64) -> [f64; 2] {
         let slope = match self.exponent {
             1.0 => 0.0,
@@ -433,6 +435,7 @@ impl Tolerance {
     }
 
     /// The precision at a distance, unless it is a growth.
+    #[inline(always)]
     fn power(&self, t: f64) -> f64 {
         if self.exponent == 1.0 { 0.0 } else { self.precision * libm::pow(t, self.exponent) }
     }

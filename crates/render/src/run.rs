@@ -91,8 +91,10 @@ impl Renderer<'_> {
         let mut stats = in_tiles(&frame, options, region, progress, &mut pixels, || {
             let mut shading = Shading::default();
             let mut colors = Vec::new();
-            let (frame, offsets) = (&frame, &offsets);
+            let mut order = Order::default();
+            let offsets = &offsets;
             move |tracer: &mut Tracer<'_>, tile: Rect, out: &mut [Triple]| {
+                order.fit(tile);
                 let mut unresolved = vec![false; out.len()];
                 let weight = 1.0 / offsets.len() as f32;
                 let mut rays = 0..out.len() * offsets.len();
@@ -104,17 +106,16 @@ impl Renderer<'_> {
                     rays.start = wave.end;
                     tracer.clear();
                     for ray in wave.clone() {
-                        let center = pixel_center(tile, ray / offsets.len());
-                        tracer.cast(frame.view.ray(center + offsets[ray % offsets.len()]));
+                        tracer.push(order.center(ray / offsets.len()) + offsets[ray % offsets.len()]);
                     }
                     tracer.trace();
                     tracer.shade(&mut shading, &mut colors);
                     for (ray, &color) in wave.clone().zip(&colors) {
-                        let pixel = &mut out[ray / offsets.len()];
+                        let pixel = &mut out[order.pixel(ray / offsets.len())];
                         *pixel = add_scaled(*pixel, 1.0, color);
                     }
                     for &ray in &tracer.unresolved {
-                        unresolved[(wave.start + ray as usize) / offsets.len()] = true;
+                        unresolved[order.pixel((wave.start + ray as usize) / offsets.len())] = true;
                     }
                 }
                 for (pixel, &is_unresolved) in out.iter_mut().zip(&unresolved) {
@@ -139,18 +140,20 @@ impl Renderer<'_> {
         let frame = Frame::new(self, &Options { samples: 1, ..options.clone() })?;
         let mut pixels = filled(region, Layers::NOTHING)?;
         let mut stats = in_tiles(&frame, options, region, progress, &mut pixels, || {
-            let frame = &frame;
+            let mut order = Order::default();
             move |tracer: &mut Tracer<'_>, tile: Rect, out: &mut [_]| {
-                for (wave, out) in out.chunks_mut(WAVE).enumerate() {
+                order.fit(tile);
+                for first in (0..out.len()).step_by(WAVE) {
                     if progress.is_cancelled() {
                         return;
                     }
+                    let wave = first..(first + WAVE).min(out.len());
                     tracer.clear();
-                    for ray in 0..out.len() {
-                        tracer.cast(frame.view.ray(pixel_center(tile, wave * WAVE + ray)));
+                    for ray in wave.clone() {
+                        tracer.push(order.center(ray));
                     }
                     tracer.trace();
-                    Layers::collect(tracer, out);
+                    Layers::collect(tracer, out, |ray| order.pixel(first + ray));
                     tracer.stats.unresolved.pixels += tracer.unresolved.len() as u64;
                 }
             }
@@ -160,10 +163,43 @@ impl Renderer<'_> {
     }
 }
 
-/// The raster coordinates of the centre of a tile's pixel.
-fn pixel_center(tile: Rect, pixel: usize) -> DVec2 {
-    let (column, row) = (pixel as u32 % tile.width, pixel as u32 / tile.width);
-    DVec2::new(f64::from(tile.x + column), f64::from(tile.y + row)) + 0.5
+/// The sides of the blocks, smallest first, whose pixels are traced one after the other: those of a row of lanes and of a
+/// bundle lie side by side, so that their rays meet the same boxes.
+const BLOCKS: [u32; 2] = [4, 16];
+
+/// The order in which the pixels of a tile are traced.
+#[derive(Default)]
+struct Order {
+    tile: Rect,
+    /// Column and row in the tile.
+    pixels: Vec<[u32; 2]>,
+}
+
+impl Order {
+    /// Makes the order for a tile.
+    fn fit(&mut self, tile: Rect) {
+        if (self.tile.width, self.tile.height) != (tile.width, tile.height) {
+            self.pixels.clear();
+            self.pixels.extend((0..tile.height).flat_map(|row| (0..tile.width).map(move |column| [column, row])));
+            self.pixels.sort_by_key(|&[column, row]| {
+                let [small, large] = BLOCKS.map(|side| [row / side, column / side]);
+                [large, small, [row, column]]
+            });
+        }
+        self.tile = tile;
+    }
+
+    /// The place of a pixel in its tile, row by row.
+    fn pixel(&self, place: usize) -> usize {
+        let [column, row] = self.pixels[place];
+        (row * self.tile.width + column) as usize
+    }
+
+    /// The raster coordinates of the centre of a pixel.
+    fn center(&self, place: usize) -> DVec2 {
+        let [column, row] = self.pixels[place];
+        DVec2::new(f64::from(self.tile.x + column), f64::from(self.tile.y + row)) + 0.5
+    }
 }
 
 fn filled<T: Clone>(region: Rect, value: T) -> Result<Vec<T>, RenderError> {

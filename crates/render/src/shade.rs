@@ -47,7 +47,7 @@ impl Tracer<'_> {
     pub(crate) fn shade(&mut self, memory: &mut Shading, colors: &mut Vec<Triple>) {
         let background = &self.frame.renderer.scene.background;
         colors.clear();
-        colors.extend(self.rays().map(|(ray, _)| seen_behind(background, ray)));
+        colors.extend((0..self.rays.count()).map(|ray| seen_behind(background, &self.rays.ray(ray))));
         self.measure_openness(&mut memory.openness);
         let ambient = &self.frame.renderer.scene.ambient;
         for (hit, &openness) in self.hits.iter().zip(&memory.openness) {

@@ -7,13 +7,13 @@ use crate::march::{End, Fate, Start};
 use crate::material::{Footprint, Surface};
 use crate::packet::{Manner, Quest, Space};
 use crate::prepare::{Frame, rounding};
+use crate::rays::Rays;
 use crate::stats::Stats;
 use crate::vector::{Triple, add_scaled, dot, length, scaled};
-use crate::view::{Ray, clip};
 use crate::wave::Wave;
 use freikugel_field::{Cell, Encloser, Evaluator, Part, Points, Program, Shares, Splitter};
 use freikugel_scene::Method;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::ops::Range;
 
 /// A hit is a false one if by its gradient the surface is still this many tolerances away.
@@ -49,17 +49,6 @@ pub(crate) struct Hit {
     pub(crate) surface: Surface,
 }
 
-/// One camera ray of a wave.
-struct CameraRay {
-    ray: Ray,
-    /// The nearest exact object and its distance.
-    exact: Option<(usize, f64)>,
-    /// How far from the ray's origin its march begins.
-    begin: f64,
-    start: Start,
-    steps: u32,
-}
-
 /// Where a march ended on a surface.
 #[derive(Clone, Copy)]
 struct Landing<'f> {
@@ -83,7 +72,7 @@ pub(crate) struct Tracer<'f> {
     pub(crate) ends: Vec<End>,
     pub(crate) cloud: Cloud,
     shares: Shares,
-    rays: Vec<CameraRay>,
+    pub(crate) rays: Rays,
     landings: Vec<Landing<'f>>,
     /// What the rays of the last wave met, in no particular order; at most one for each ray.
     pub(crate) hits: Vec<Hit>,
@@ -114,22 +103,12 @@ impl<'f> Tracer<'f> {
             ends: Vec::new(),
             cloud: Cloud::default(),
             shares: Shares::default(),
-            rays: Vec::new(),
+            rays: Rays::default(),
             landings: Vec::new(),
             hits: Vec::new(),
             unresolved: Vec::new(),
             stats: Stats::default(),
         }
-    }
-
-    /// The rays of the wave, as cast, and the steps they took.
-    pub(crate) fn rays(&self) -> impl ExactSizeIterator<Item = (&Ray, u32)> {
-        self.rays.iter().map(|ray| (&ray.ray, ray.steps))
-    }
-
-    /// A ray of the wave, as cast.
-    pub(crate) fn ray(&self, index: u32) -> &Ray {
-        &self.rays[index as usize].ray
     }
 
     /// Forgets the last wave.
@@ -139,52 +118,16 @@ impl<'f> Tracer<'f> {
         self.unresolved.clear();
     }
 
-    /// Adds a camera ray to the wave.
-    pub(crate) fn cast(&mut self, ray: Ray) {
-        let frame = self.frame;
-        let id = self.rays.len() as u32;
-        let exact = frame
-            .renderer
-            .exact
-            .iter()
-            .enumerate()
-            .filter_map(|(index, exact)| Some((index, exact.ray.hit(ray.origin, ray.direction)?)))
-            .filter(|(_, t)| t.is_finite())
-            .min_by(|(_, a), (_, b)| a.total_cmp(b));
-
-        let limit = frame.renderer.scene.tracer.max_distance;
-        let span = match &frame.bounds {
-            _ if self.marched.is_none() => None,
-            Some(bounds) => clip(bounds, &ray),
-            None => Some((0.0, limit)),
-        };
-        let limit = exact.map_or(limit, |(_, t)| t.min(limit));
-        // The march begins at the box's wall, computed in double precision, so that `t` stays small.
-        let (begin, end) = match span {
-            Some((near, far)) if near < limit => (near, far.min(limit) - near),
-            _ => (0.0, 0.0),
-        };
-        let origin = (ray.origin + ray.direction * begin - frame.origin).as_vec3();
-        let [base, slope] = frame.tolerance.along(begin, begin + end, f64::from(origin.length()));
-        let in_values = 1.0 / f64::from(frame.pace.scale);
-        let start = Start {
-            id,
-            origin: origin.to_array(),
-            direction: ray.direction.as_vec3().to_array(),
-            span: [0.0, end as f32],
-            tolerance: [(base * in_values) as f32, (slope * in_values) as f32],
-            steps: 0,
-            sharpness: 1.0,
-        };
-        if start.span[1] > 0.0 {
-            self.wave.push(&start);
-        }
-        self.rays.push(CameraRay { ray, exact, begin, start, steps: 0 });
-        self.stats.rays.camera += 1;
+    /// Adds the camera ray through a point of the picture to the wave.
+    pub(crate) fn push(&mut self, raster: DVec2) {
+        self.rays.push(raster);
     }
 
     /// Traces all rays of the wave and collects what they hit.
     pub(crate) fn trace(&mut self) {
+        self.rays.cast(self.frame, self.marched.is_some());
+        self.wave.push_all(&self.rays);
+        self.stats.rays.camera += self.rays.count() as u64;
         self.land();
         self.collect_marched();
         self.collect_exact();
@@ -206,19 +149,20 @@ impl<'f> Tracer<'f> {
                 self.wave.travel(&space, Quest::First, field, encloser, &mut self.splitter, &mut self.ends);
             self.cloud.clear();
             self.ends.retain(|end| {
-                let ray = &mut self.rays[end.id as usize];
-                ray.steps = end.steps;
+                let ray = end.id as usize;
+                let starts = &self.rays.starts;
+                self.rays.steps[ray] = end.steps;
                 let lands = match end.fate {
                     Fate::Hit => true,
                     Fate::Passed => false,
                     Fate::Exhausted => {
                         self.unresolved.push(end.id);
-                        let [base, slope] = ray.start.tolerance;
-                        end.value < CREEPING * (base + slope * end.t)
+                        end.value < CREEPING * (starts.base[ray] + starts.growth[ray] * end.t)
                     }
                 };
                 if lands {
-                    self.cloud.push(add_scaled(ray.start.origin, end.t, ray.start.direction));
+                    let at = |lists: &[Vec<f32>; 3]| [lists[0][ray], lists[1][ray], lists[2][ray]];
+                    self.cloud.push(add_scaled(at(&starts.origin), end.t, at(&starts.direction)));
                 }
                 lands
             });
@@ -229,7 +173,7 @@ impl<'f> Tracer<'f> {
                 first += ends.len();
             }
             for (index, end) in self.ends.iter().enumerate() {
-                let start = &mut self.rays[end.id as usize].start;
+                let start = self.rays.start(end.id as usize);
                 let gradient = self.cloud.gradient_at(index);
                 let slope = length(gradient);
                 let in_values = slope.max(FLATTEST) * pace.scale;
@@ -240,8 +184,9 @@ impl<'f> Tracer<'f> {
                     [(base * in_values).max(rounding(length(start.origin))), (growth * in_values).max(rounding(1.0))];
                 let is_false = end.value > FALSE_HIT * limit * in_values && end.value > finer[0] + finer[1] * end.t;
                 if end.fate == Fate::Hit && is_false && self.wave.heeds_tolerance() {
-                    start.tolerance = finer;
-                    self.wave.push(&Start { span: [end.t, start.span[1]], steps: end.steps, ..*start });
+                    self.rays.starts.tolerate(end.id as usize, finer);
+                    let span = [end.t, start.span[1]];
+                    self.wave.push(&Start { span, steps: end.steps, tolerance: finer, ..start });
                 } else {
                     if end.t == 0.0 && end.value < -limit {
                         self.stats.inside += 1;
@@ -255,7 +200,7 @@ impl<'f> Tracer<'f> {
                 break;
             }
         }
-        self.stats.steps += self.rays.iter().map(|ray| u64::from(ray.steps)).sum::<u64>();
+        self.stats.steps += self.rays.steps.iter().map(|&steps| u64::from(steps)).sum::<u64>();
         self.stats.unresolved.camera += self.unresolved.len() as u64;
     }
 
@@ -278,7 +223,7 @@ impl<'f> Tracer<'f> {
                 self.stats.evaluations += self.cloud.shares(field, part, &mut self.shares);
             }
             for (index, landing) in landings.iter().enumerate() {
-                let CameraRay { begin, start, .. } = &self.rays[landing.ray as usize];
+                let ray = landing.ray as usize;
                 let main = match asks_for_shares {
                     true => self
                         .shares
@@ -287,7 +232,7 @@ impl<'f> Tracer<'f> {
                         .map_or(0, |(region, _)| region),
                     false => part.first_region().unwrap_or(0),
                 };
-                let viewer = start.direction.map(|x| -x);
+                let viewer = self.rays.viewer(ray);
                 let slope = length(landing.gradient);
                 let mut normal = scaled(landing.gradient, 1.0 / slope);
                 if !normal.iter().all(|x| x.is_finite()) {
@@ -296,7 +241,7 @@ impl<'f> Tracer<'f> {
                 if paints[main].is_sheet && dot(normal, viewer) < 0.0 {
                     normal = normal.map(|x| -x);
                 }
-                let distance = begin + f64::from(landing.t);
+                let distance = self.rays.begin(ray) + f64::from(landing.t);
                 let offset = length(landing.position);
                 let uncertainty = frame.tolerance.at(distance, f64::from(offset)) as f32;
                 let footprint = Footprint { width: frame.width_at(distance), normal, viewer, uncertainty };
@@ -333,16 +278,17 @@ impl<'f> Tracer<'f> {
     fn collect_exact(&mut self) {
         let frame = self.frame;
         for landing in &self.landings {
-            self.rays[landing.ray as usize].exact = None;
+            self.rays.forget_exact(landing.ray as usize);
         }
         for (index, evaluator) in self.exact.iter_mut().enumerate() {
             let paint = &frame.renderer.exact[index].paint;
             self.cloud.clear();
             let first = self.hits.len();
-            for (id, CameraRay { ray, exact, start, .. }) in self.rays.iter().enumerate() {
-                let Some((_, distance)) = exact.filter(|(object, _)| *object == index) else {
+            for id in 0..self.rays.count() {
+                let Some((_, distance)) = self.rays.exact(id).filter(|(object, _)| *object == index) else {
                     continue;
                 };
+                let ray = self.rays.ray(id);
                 let point = ray.origin + ray.direction * distance;
                 let position = (point - frame.origin).as_vec3().to_array();
                 self.cloud.push(position);
@@ -352,7 +298,7 @@ impl<'f> Tracer<'f> {
                     object: paint.object,
                     position,
                     normal: [0.0; 3],
-                    viewer: start.direction.map(|x| -x),
+                    viewer: self.rays.viewer(id),
                     distance,
                     // Of the two, the distance is the one that never vanishes.
                     uncertainty: rounding(offset.max(distance as f32)),
@@ -381,7 +327,7 @@ impl<'f> Tracer<'f> {
                     viewer: hit.viewer,
                     uncertainty: hit.uncertainty,
                 };
-                let ray = &self.rays[hit.ray as usize].ray;
+                let ray = self.rays.ray(hit.ray as usize);
                 let point = ray.origin + ray.direction * hit.distance;
                 hit.surface = Surface::of(paint.material, point, &footprint);
             }

@@ -88,6 +88,7 @@ impl View {
     }
 
     /// The ray through a point of the picture in raster coordinates.
+    #[inline(always)]
     pub(crate) fn ray(&self, raster: DVec2) -> Ray {
         let x = (2.0 * raster.x / self.size.x - 1.0) * self.half.x;
         let y = (1.0 - 2.0 * raster.y / self.size.y) * self.half.y;
@@ -149,11 +150,22 @@ pub(crate) fn framed(extent: Option<Aabb>, width: u32, height: u32) -> Camera {
 
 /// The part of a ray inside a box, as distances from its origin.
 pub(crate) fn clip(bounds: &Aabb, ray: &Ray) -> Option<(f64, f64)> {
-    let inverse = ray.direction.recip();
-    let (a, b) = ((bounds.min - ray.origin) * inverse, (bounds.max - ray.origin) * inverse);
-    let near = a.min(b).max_element().max(0.0);
-    let far = a.max(b).min_element();
+    let (near, far) = walls(bounds, ray);
     (near <= far).then_some((near, far))
+}
+
+/// Where a ray enters a box, from its origin on, and where it leaves it; in the wrong order if it misses the box.
+#[inline(always)]
+pub(crate) fn walls(bounds: &Aabb, ray: &Ray) -> (f64, f64) {
+    let (mut near, mut far) = (0.0, f64::INFINITY);
+    for axis in 0..3 {
+        let (origin, inverse) = (ray.origin[axis], 1.0 / ray.direction[axis]);
+        let (a, b) = ((bounds.min[axis] - origin) * inverse, (bounds.max[axis] - origin) * inverse);
+        let (first, last) = if a < b { (a, b) } else { (b, a) };
+        near = if first > near { first } else { near };
+        far = if last < far { last } else { far };
+    }
+    (near, far)
 }
 
 impl fmt::Display for CameraError {

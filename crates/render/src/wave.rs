@@ -7,6 +7,7 @@
 use crate::fixed::{Fixed, Rules};
 use crate::march::{End, Fate, Start};
 use crate::packet::{Packet, Quest, Space};
+use crate::rays::Rays;
 use crate::relaxed::Relaxed;
 use freikugel_field::{Cell, Encloser, Evaluator, Splitter};
 
@@ -47,6 +48,14 @@ impl<'f> Wave<'f> {
         match self.way {
             Way::Packets => self.packet.push(start),
             Way::Fixed { .. } | Way::Relaxed { .. } => self.starts.push(*start),
+        }
+    }
+
+    /// Adds those of some camera rays that march.
+    pub(crate) fn push_all(&mut self, rays: &Rays) {
+        match self.way {
+            Way::Packets => self.packet.push_all(rays),
+            Way::Fixed { .. } | Way::Relaxed { .. } => self.starts.extend(rays.marching().map(|ray| rays.start(ray))),
         }
     }
 
