@@ -264,47 +264,30 @@ at_points!(Gradients, 4, gradients, affine_gradients, GRADIENTS);
 #[derive(Default)]
 pub(crate) struct Ranges;
 
-/// Enclosures of values and of their derivatives by one parameter, over ranges of that parameter.
-#[derive(Default)]
-pub(crate) struct Jets;
-
-/// How far the points of a register lie around the middle of their box, and how fast they move with the parameter.
+/// How far the points of a register lie around the middle of their box.
 #[derive(Clone)]
-pub(crate) struct Reach {
-    pub(crate) radius: Block,
-    pub(crate) speed: Block,
-}
+pub(crate) struct Reach(pub(crate) Block);
 
 impl Default for Reach {
     fn default() -> Self {
-        Self { radius: Block([f32::INFINITY; BATCH]), speed: Block([f32::INFINITY; BATCH]) }
+        Self(Block([f32::INFINITY; BATCH]))
     }
 }
 
 impl Reach {
     fn stretched(&self, norm: f32) -> Self {
         let mut to = self.clone();
-        for number in to.radius.0.iter_mut().chain(&mut to.speed.0) {
-            *number *= norm * WIDER;
-        }
+        to.0.0.iter_mut().for_each(|radius| *radius *= norm * WIDER);
         to
     }
-}
 
-impl Reach {
-    /// The reach of points whose coordinates have `C` components: two ends, and for jets the ends of a derivative.
-    fn of<const C: usize>(point: &[Block], count: usize) -> Self {
+    /// The reach of points in boxes.
+    fn of_boxes(point: &[Block], count: usize) -> Self {
         let mut reach = Self::default();
-        let squares = |lane: usize, half: fn(f32, f32) -> f32, first: usize| {
-            let side = |axis: usize| half(point[axis * C + first].0[lane], point[axis * C + first + 1].0[lane]);
-            let [x, y, z] = [side(0), side(1), side(2)];
-            (x * x + y * y + z * z).sqrt() * WIDER
-        };
-        for lane in 0..count {
-            reach.radius.0[lane] = squares(lane, |lo, hi| 0.5 * (hi - lo), 0);
-            if C > 2 {
-                reach.speed.0[lane] = squares(lane, |least, most| least.abs().max(most.abs()), 2);
-            }
+        for (lane, radius) in reach.0.0[..count].iter_mut().enumerate() {
+            let half = |axis: usize| 0.5 * (point[2 * axis + 1].0[lane] - point[2 * axis].0[lane]);
+            let [x, y, z] = [half(0), half(1), half(2)];
+            *radius = (x * x + y * y + z * z).sqrt() * WIDER;
         }
         reach
     }
@@ -316,33 +299,29 @@ const WIDER: f32 = 1.0 + 8.0 * f32::EPSILON;
 /// The rounding errors of a distance formula in single precision, relative to the coordinates and the value.
 const ROUNDING: f32 = 16.0 * f32::EPSILON;
 
-macro_rules! over_boxes {
-    ($Number:ident, $components:literal, $kernel:ident, $affine:ident, $FORMULA:ident) => {
-        impl Number for $Number {
-            const COMPONENTS: usize = $components;
-            const FORMULA: FormulaKernels = formula_kernel::$FORMULA;
-            type Reach = Reach;
+impl Number for Ranges {
+    const COMPONENTS: usize = 2;
+    const FORMULA: FormulaKernels = formula_kernel::RANGES;
+    type Reach = Reach;
 
-            fn primitive(level: Level, call: PrimitiveCall<'_, Self>) {
-                primitive_over_boxes::<Self>(level, call);
-            }
-            fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>) {
-                kernels.$kernel
-            }
-            fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>) {
-                kernels.$kernel
-            }
-            fn affine(level: Level, job: &mut AffineJob<'_>) {
-                crate::kernel::$affine(level, job);
-            }
-            fn stretched(from: &Reach, norm: f32) -> Reach {
-                from.stretched(norm)
-            }
-            fn reach_of(point: &[Block], count: usize) -> Reach {
-                Reach::of::<$components>(point, count)
-            }
-        }
-    };
+    fn primitive(level: Level, call: PrimitiveCall<'_, Self>) {
+        primitive_over_boxes(level, call);
+    }
+    fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>) {
+        kernels.ranges
+    }
+    fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>) {
+        kernels.ranges
+    }
+    fn affine(level: Level, job: &mut AffineJob<'_>) {
+        crate::kernel::affine_ranges(level, job);
+    }
+    fn stretched(from: &Reach, norm: f32) -> Reach {
+        from.stretched(norm)
+    }
+    fn reach_of(point: &[Block], count: usize) -> Reach {
+        Reach::of_boxes(point, count)
+    }
 }
 
 /// Taylor models along one parameter.
@@ -391,7 +370,7 @@ fn primitive_model(level: Level, call: PrimitiveCall<'_, Models>) {
             let reach: f32 = point[1..].iter().map(|term| term.0[lane].abs()).sum();
             radius += reach * reach;
         }
-        let radius = (radius.sqrt() * WIDER).min(reach.radius.0[lane]);
+        let radius = (radius.sqrt() * WIDER).min(reach.0.0[lane]);
         let rounding = ROUNDING * (size(0, lane) + size(1, lane) + size(2, lane) + value.abs());
         let slack = slope * radius * WIDER + rounding;
         let is_known = slack < f32::INFINITY;
@@ -407,14 +386,11 @@ fn primitive_model(level: Level, call: PrimitiveCall<'_, Models>) {
     }
 }
 
-over_boxes!(Ranges, 2, ranges, affine_ranges, RANGES);
-over_boxes!(Jets, 4, jets, affine_jets, JETS);
-
 /// A primitive over boxes: its value in the middle, and as much to either side as its largest slope allows.
 ///
 /// For distances this is as narrow as an enclosure can be, in contrast to what the formula yields on intervals, and it needs
 /// no kernel of its own.
-fn primitive_over_boxes<N: Number<Reach = Reach>>(level: Level, call: PrimitiveCall<'_, N>) {
+fn primitive_over_boxes(level: Level, call: PrimitiveCall<'_, Ranges>) {
     let PrimitiveCall { table, job, slope, reach, scratch } = call;
     let PrimitiveJob { points, at, constants, before, out, count } = job;
     let (middle, rest) = scratch.split_at_mut(3);
@@ -427,7 +403,7 @@ fn primitive_over_boxes<N: Number<Reach = Reach>>(level: Level, call: PrimitiveC
             radius.fill(0.0);
             size.fill(0.0);
             for (axis, middle) in middle.iter_mut().enumerate() {
-                let (lo, hi) = (&points[axis * N::COMPONENTS].0[..count], &points[axis * N::COMPONENTS + 1].0[..count]);
+                let (lo, hi) = (&points[2 * axis].0[..count], &points[2 * axis + 1].0[..count]);
                 let middle = &mut middle.0[..count];
                 let offset = at[axis].abs();
                 for lane in 0..count {
@@ -446,10 +422,10 @@ fn primitive_over_boxes<N: Number<Reach = Reach>>(level: Level, call: PrimitiveC
         level,
         #[inline(always)]
         || {
-            let [lo, hi, slopes @ ..] = out else { unreachable!("two ends") };
+            let [lo, hi] = out else { unreachable!("two ends") };
             let (lo, hi) = (&mut lo.0[..count], &mut hi.0[..count]);
             let (radius, size, value) = (&radius.0[..count], &size.0[..count], &value.0[..count]);
-            let around = &reach.radius.0[..count];
+            let around = &reach.0.0[..count];
             for lane in 0..count {
                 let radius = (radius[lane].sqrt() * WIDER).min(around[lane]);
                 let v = value[lane];
@@ -458,15 +434,7 @@ fn primitive_over_boxes<N: Number<Reach = Reach>>(level: Level, call: PrimitiveC
                 lo[lane] = if is_known { v - slack } else { f32::NEG_INFINITY };
                 hi[lane] = if is_known { v + slack } else { f32::INFINITY };
             }
-            if let [least, most] = slopes {
-                for lane in 0..count {
-                    let speed = slope * reach.speed.0[lane] * WIDER;
-                    let is_known = speed < f32::INFINITY;
-                    least.0[lane] = if is_known { -speed } else { f32::NEG_INFINITY };
-                    most.0[lane] = if is_known { speed } else { f32::INFINITY };
-                }
-            }
-            if let (Some(before), []) = (before, slopes) {
+            if let Some(before) = before {
                 let (lo_before, hi_before) = (&before[0].0[..count], &before[1].0[..count]);
                 for lane in 0..count {
                     lo[lane] = lo[lane].min(lo_before[lane]);
@@ -475,19 +443,4 @@ fn primitive_over_boxes<N: Number<Reach = Reach>>(level: Level, call: PrimitiveC
             }
         },
     );
-    let (Some(before), [_, _, _, _]) = (before, &*out) else { return };
-    for lane in 0..count {
-        let (a, b) = ([before[0].0[lane], before[1].0[lane]], [out[0].0[lane], out[1].0[lane]]);
-        out[0].0[lane] = a[0].min(b[0]);
-        out[1].0[lane] = a[1].min(b[1]);
-        if let ([_, _, least, most], [_, _, least_before, most_before]) = (&mut *out, before) {
-            let (least_before, most_before) = (least_before.0[lane], most_before.0[lane]);
-            if a[1] < b[0] {
-                (least.0[lane], most.0[lane]) = (least_before, most_before);
-            } else if a[0] <= b[1] {
-                least.0[lane] = least.0[lane].min(least_before);
-                most.0[lane] = most.0[lane].max(most_before);
-            }
-        }
-    }
 }

@@ -183,7 +183,6 @@ kernels!(VALUES, Lanes<_>);
 kernels!(GRADIENTS, Dual<Lanes<_>>);
 kernels!(SECONDS, Dual<Dual<Lanes<_>, 1>, 1>);
 kernels!(RANGES, Intervals<_>);
-kernels!(JETS, Dual<Intervals<_>, 1>);
 
 /// A product with a constant needs no product of polynomials.
 pub(crate) const MODELS: FormulaKernels = FormulaKernels {

@@ -319,10 +319,6 @@ fn combine_ranges<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
     dispatch!(level, token => combine_loop::<C, _, Intervals<_>>(token, job, false));
 }
 
-fn combine_jets<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
-    dispatch!(level, token => combine_loop::<C, _, Dual<Intervals<_>, 1>>(token, job, false));
-}
-
 fn combine_models<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
     dispatch!(level, token => combine_loop::<C, _, Taylor<_>>(token, job, false));
 }
@@ -370,10 +366,6 @@ fn modify_seconds<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
 
 fn modify_ranges<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
     dispatch!(level, token => modify_loop::<M, _, Intervals<_>>(token, job));
-}
-
-fn modify_jets<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
-    dispatch!(level, token => modify_loop::<M, _, Dual<Intervals<_>, 1>>(token, job));
 }
 
 fn modify_models<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
@@ -437,11 +429,6 @@ pub(crate) fn affine_seconds(level: Level, job: &mut AffineJob<'_>) {
 /// Maps a batch of boxes.
 pub(crate) fn affine_ranges(level: Level, job: &mut AffineJob<'_>) {
     dispatch!(level, token => affine_loop::<_, Intervals<_>>(token, job));
-}
-
-/// Maps a batch of boxes with the derivatives of their points by one parameter.
-pub(crate) fn affine_jets(level: Level, job: &mut AffineJob<'_>) {
-    dispatch!(level, token => affine_loop::<_, Dual<Intervals<_>, 1>>(token, job));
 }
 
 /// Maps a batch of Taylor models of points.
@@ -508,12 +495,12 @@ kernels!(
 kernels!(
     /// A binary operator's formula, for every number type.
     CombineKernels, Combine::combine, CombineFn, CombineJob, combine_values, combine_gradients,
-    [a: S, b: S], expr [Expr<'g>, Expr<'g>], seconds = combine_seconds, ranges = combine_ranges, jets = combine_jets,
+    [a: S, b: S], expr [Expr<'g>, Expr<'g>], seconds = combine_seconds, ranges = combine_ranges,
     models = combine_models, shares = combine_shares
 );
 kernels!(
     /// A unary operator's formula, for every number type.
     ModifyKernels, Modify::modify, ModifyFn, ModifyJob, modify_values, modify_gradients,
-    [value: S], expr [Expr<'g>], seconds = modify_seconds, ranges = modify_ranges, jets = modify_jets,
+    [value: S], expr [Expr<'g>], seconds = modify_seconds, ranges = modify_ranges,
     models = modify_models; slope: Dual<Interval, 1>
 );

@@ -58,7 +58,7 @@ pub use analysis::{Analysis, MAX_DEPTH, analyse, extent};
 pub use cells::{Cell, Cells, Occupancy, Slope, Splitter, Surveyed, Wanted};
 pub use contract::{Aabb, Contract, Extent, Metric};
 pub use diagnostic::{Diagnostic, Severity};
-pub use enclose::{Bounds, Encloser, ModelLanes, StretchLanes, Stretches, ZeroLanes};
+pub use enclose::{Encloser, ModelLanes, StretchLanes, ZeroLanes};
 pub use evaluator::{Evaluator, Points, Shares};
 pub use explore::{Limits, explore, find_extent, find_radius, find_support};
 pub use field::{Axis, Field, Form, MaterialId, Node, Origin, Triple, Value};

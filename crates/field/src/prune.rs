@@ -78,7 +78,7 @@ impl Survey {
                 self.bank.points[2 * axis + 1].0[lane] = (middle + half).next_up();
             }
         }
-        self.bank.reach[0].radius.0[..count].fill((x * x + y * y + z * z).sqrt() * (1.0 + 4.0 * f32::EPSILON));
+        self.bank.reach[0].0.0[..count].fill((x * x + y * y + z * z).sqrt() * (1.0 + 4.0 * f32::EPSILON));
         for (index, op) in listing.ops.iter().enumerate() {
             self.bank.step(program, op, level, count);
             let step = index + 1;

@@ -4,9 +4,7 @@ mod common;
 
 use common::Random;
 use freikugel_field::shapes::*;
-use freikugel_field::{
-    Encloser, Evaluator, Extent, Field, Formula, Interval, Points, Stretches, Structure, analyse, simd,
-};
+use freikugel_field::{Evaluator, Extent, Field, Formula, Interval, Points, Structure, analyse};
 use glam::{DQuat, DVec3};
 
 /// Formulas of all sorts, defined and bounded where they are tested.
@@ -59,54 +57,6 @@ fn a_node_computes_its_formula_and_its_cut() {
                 assert!(near(single[0].into(), 1e-4) || is_step, "{text} at {p}: {}, not {expected}", single[0]);
                 let around = program.interval(p.to_array().map(|c| Interval::new(c - 0.01, c + 0.01)));
                 assert!(around.contains(exact), "{text} at {p}: {exact} not in {around:?}");
-            }
-        }
-    }
-}
-
-#[test]
-fn stretches_are_enclosed() {
-    const SAMPLES: usize = 40;
-    let mut random = Random::new(2);
-    for text in TEXTS {
-        let field = formula(text).within_sphere(1.6).rotate([1.0, 2.0, 3.0], 40.0) | sphere(0.4).at([0.9, 0.2, 0.1]);
-        let program = Structure::compile(&[field]).expect("sound").program(DVec3::new(0.5, 0.1, -0.2));
-        for level in simd::available() {
-            let mut encloser = Encloser::new(&program, level);
-            for _ in 0..60 {
-                let (origin, direction) = (random.point(2.0).as_vec3(), random.direction().as_vec3());
-                let near = random.range(0.0, 1.0) as f32;
-                let far = near + 10.0f64.powf(random.range(-4.0, 0.0)) as f32;
-                let (o, d) = (origin.to_array().map(|c| [c]), direction.to_array().map(|c| [c]));
-                let stretches = Stretches {
-                    origin: o.each_ref().map(<[f32; 1]>::as_slice),
-                    direction: d.each_ref().map(<[f32; 1]>::as_slice),
-                    near: &[near],
-                    far: &[far],
-                };
-                let (mut lo, mut hi, mut least, mut most) = ([0.0], [0.0], [0.0], [0.0]);
-                let whole = program.whole();
-                encloser.jets(whole, &stretches, [&mut lo, &mut hi], [&mut least, &mut most]);
-                let at = |i: usize| {
-                    let t = f64::from(near) + f64::from(far - near) * i as f64 / SAMPLES as f64;
-                    (t, program.value(program.origin() + origin.as_dvec3() + direction.as_dvec3() * t))
-                };
-                let mut before = at(0);
-                for (t, value) in (1..=SAMPLES).map(at) {
-                    assert!(f64::from(lo[0]) <= value && value <= f64::from(hi[0]), "{text}: {value} in {lo:?} {hi:?}");
-                    // By the mean value theorem; a difference of values has their rounding errors.
-                    let rounding = 1e-12;
-                    let (rise, run) = (value - before.1, t - before.0);
-                    assert!(
-                        f64::from(least[0]) * run <= rise + rounding && rise - rounding <= f64::from(most[0]) * run,
-                        "{text}: slope {} in {least:?} {most:?}",
-                        rise / run
-                    );
-                    before = (t, value);
-                }
-                let (mut low, mut high) = ([0.0], [0.0]);
-                encloser.values(whole, &stretches, [&mut low, &mut high]);
-                assert_eq!((low, high), (lo, hi), "{text}: with and without derivatives");
             }
         }
     }

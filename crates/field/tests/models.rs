@@ -174,6 +174,40 @@ fn combinations_with_distances_hold_as_well() {
 }
 
 #[test]
+fn models_of_warps_and_displacements_hold() {
+    const MAPS: [[&str; 3]; 4] = [
+        ["x + 0.2*sin(3z)", "y + 0.1*cos(2x)", "z"],
+        ["x*cos(z) + y*sin(z)", "y*cos(z) - x*sin(z)", "z"],
+        ["x + exp(-20*((x - 0.5)^2 + y^2 + z^2)) / 3", "y", "z - 0.1*x^2"],
+        ["abs(x) - 0.5", "y", "max(z, -0.4)"],
+    ];
+    let mut random = Random::new(15);
+    let children: [Field; 4] = [
+        sphere(0.8).into(),
+        cuboid([0.9, 1.1, 1.3]) - cylinder(0.3, 2.0),
+        torus(0.6, 0.25).rotate([1.0, 2.0, 0.5], 30.0),
+        formula("x^4 + y^4 + z^4 - 0.4").into(),
+    ];
+    let warped = children.iter().flat_map(|child| MAPS.map(|map| child.clone().warp(map)));
+    let displaced = children.iter().map(|child| child.clone().displace("0.1*sin(5x)*sin(5y)*sin(5z) + x*y/9"));
+    let twisted = children[..3].iter().map(|child| child.clone().twist(40.0));
+    for (number, field) in warped.chain(displaced).chain(twisted).enumerate() {
+        let program = program(field.rotate([3.0, 1.0, -1.0], 25.0).at([0.2, -0.3, 0.4]));
+        let mut known = 0;
+        for level in simd::available() {
+            let lanes = Lanes::random(&mut random, 0.5);
+            let mut encloser = Encloser::new(&program, level);
+            match models(&mut encloser, &program, &lanes) {
+                [Some(first), None] => known += check(&format!("field {number}"), &first, &program, &lanes),
+                // The cut of a maximum is another field.
+                _ => known += 1,
+            }
+        }
+        assert!(known > 0, "nothing is known of field {number}");
+    }
+}
+
+#[test]
 fn the_bound_shrinks_with_the_fifth_power() {
     let program = program(formula("sin(2x) * cos(y + z^2) + exp(x*y / 3) - 1 / (4 + z)"));
     let mut encloser = Encloser::new(&program, simd::best());

@@ -5,8 +5,8 @@ mod common;
 use common::{Random, contains};
 use freikugel_field::shapes::*;
 use freikugel_field::{
-    Encloser, Evaluator, Extent, Field, Formula, Interval, MaterialId, Points, Program, Severity, Shares, Stretches,
-    Structure, analyse, extent, simd,
+    Evaluator, Extent, Field, Formula, Interval, MaterialId, Points, Program, Severity, Shares, Structure, analyse,
+    extent,
 };
 use glam::{DQuat, DVec3};
 
@@ -111,49 +111,6 @@ fn gradients_and_hessians_pass_through_a_warp() {
             }
         }
         assert!(smooth > 10, "{name}: only {smooth} points away from edges");
-    }
-}
-
-#[test]
-fn stretches_are_enclosed() {
-    const SAMPLES: usize = 30;
-    let mut random = Random::new(3);
-    let displaced = children().map(|child| child.displace("0.1*sin(5x)*sin(5y)*sin(5z) + x*y/9"));
-    let named = displaced.into_iter().map(|field| ("displaced".to_owned(), field));
-    for (name, field) in warped().map(|(name, _, _, field)| (name, field)).chain(named) {
-        let program = Structure::compile(&[field]).expect("sound").program(DVec3::new(0.5, 0.1, -0.2));
-        for level in simd::available() {
-            let mut encloser = Encloser::new(&program, level);
-            for _ in 0..25 {
-                let (origin, direction) = (random.point(1.5).as_vec3(), random.direction().as_vec3());
-                let near = random.range(0.0, 1.0) as f32;
-                let far = near + 10.0f64.powf(random.range(-4.0, 0.0)) as f32;
-                let (o, d) = (origin.to_array().map(|c| [c]), direction.to_array().map(|c| [c]));
-                let stretches = Stretches {
-                    origin: o.each_ref().map(<[f32; 1]>::as_slice),
-                    direction: d.each_ref().map(<[f32; 1]>::as_slice),
-                    near: &[near],
-                    far: &[far],
-                };
-                let (mut lo, mut hi, mut least, mut most) = ([0.0], [0.0], [0.0], [0.0]);
-                encloser.jets(program.whole(), &stretches, [&mut lo, &mut hi], [&mut least, &mut most]);
-                let at = |i: usize| {
-                    let t = f64::from(near) + f64::from(far - near) * i as f64 / SAMPLES as f64;
-                    (t, program.value(program.origin() + origin.as_dvec3() + direction.as_dvec3() * t))
-                };
-                let mut before = at(0);
-                for (t, value) in (1..=SAMPLES).map(at) {
-                    assert!(f64::from(lo[0]) <= value && value <= f64::from(hi[0]), "{name}: {value} in {lo:?} {hi:?}");
-                    let (rise, run, rounding) = (value - before.1, t - before.0, 1e-12);
-                    assert!(
-                        f64::from(least[0]) * run <= rise + rounding && rise - rounding <= f64::from(most[0]) * run,
-                        "{name}: slope {} in {least:?} {most:?}",
-                        rise / run
-                    );
-                    before = (t, value);
-                }
-            }
-        }
     }
 }
 
