@@ -279,6 +279,10 @@ impl<'f> Trip<'_, 'f, '_> {
         if cell.part().is_measured() || (self.space.manner == Manner::Plain && self.quest != Quest::Least) {
             return Some(pace);
         }
+        // Clearances by slopes that differ from cell to cell would show the cells in penumbras.
+        if !cell.part().is_warped() && self.quest == Quest::Least {
+            return None;
+        }
         let Slope { bound, middle } = self.space.cells.slope(cell);
         let steepest = if cell.part().is_warped() { STEEP } else { EVEN * middle };
         (bound > 0.0 && bound <= steepest && bound.is_finite()).then(|| Pace { scale: 1.0 / bound, ..pace })

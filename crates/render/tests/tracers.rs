@@ -208,6 +208,24 @@ fn formulas_can_be_marched_where_their_slope_has_a_bound() {
 }
 
 #[test]
+fn formulas_that_are_distances_but_for_a_factor_are_found_whatever_the_factor() {
+    // Their slope is even, so that they are marched by it in most cells.
+    let hits = [1e-3, 1.0, 1e3].map(|factor| {
+        let text = "max(sqrt(x^2 + y^2 + z^2) - 1, 0.4 - sqrt(x^2 + y^2), abs(z) - 0.7, 0.3 - max(abs(x), abs(y), z))";
+        let field = formula(&format!("{factor} * {text}"));
+        let field = field.within_sphere(1.2).into();
+        let scene = around(&field, &mut Random::new(77)).expect("it has an extent");
+        let comparison = compared(&scene, &options(160, 120), &[Method::Auto]);
+        let outcome = comparison.trials[0].outcome.as_ref().expect("no constant is needed");
+        for wrong in [Verdict::Missed, Verdict::False, Verdict::Unresolved, Verdict::Unjudged] {
+            assert_eq!(outcome.count(wrong), 0, "{wrong:?} with the factor {factor}");
+        }
+        outcome.stats.hits
+    });
+    assert!(hits[1] > 2000 && hits.iter().all(|count| count.abs_diff(hits[1]) <= 2), "{hits:?}");
+}
+
+#[test]
 fn pictures_with_shadows_look_alike() {
     let mut scene = scene_of(cuboid([6.0, 6.0, 0.2]).at([0.0, 0.0, -0.1]));
     add(&mut scene, sphere(0.6).at([0.0, 0.0, 0.9]) - cuboid([0.5, 2.0, 0.5]).at([0.0, 0.0, 1.2]), chalk());
