@@ -2,7 +2,7 @@
 //!
 //! Each count is measured in a process of its own, so that its peak memory can be told.
 
-use crate::measure::{Clock, Contender, Row, Unit, median, peak_memory};
+use crate::measure::{Clock, median, peak_memory};
 use crate::scattered::{self, Kind};
 use crate::table::short;
 use freikugel::render::{Options, Renderer};
@@ -14,8 +14,8 @@ pub const COUNTS: [usize; 5] = [10, 100, 1_000, 10_000, 100_000];
 
 /// The heading of the table.
 pub const HEADING: &str = "\
-| rounded boxes | read | compile | picture, 1 thread | picture, all threads | peak memory |
-|---|---|---|---|---|---|
+| rounded boxes | read | compile | first picture, 1 thread | next picture, 1 thread | first, all threads | next, all threads | peak memory |
+|---|---|---|---|---|---|---|---|
 ";
 
 /// The name of a count, for the choice of rows.
@@ -23,9 +23,9 @@ pub fn name(count: usize) -> String {
     format!("growth: {count} rounded boxes")
 }
 
-/// Measures one count in this process: milliseconds to read the scene, to compile it, and for a picture of camera rays and
-/// normals at 640 x 360 (binding and the first division of space included), in processor time on one thread and from start
-/// to end on `threads` of them; and bytes of memory.
+/// Measures one count in this process: milliseconds to read the scene and to compile it, both in processor time; and for a
+/// picture of camera rays and normals at 640 x 360, in processor time on one thread and from start to end on `threads` of
+/// them. The first picture of a renderer makes the cells, the next ones find them there. And bytes of memory.
 ///
 /// # Errors
 /// If the scene that was made can't be read.
@@ -34,25 +34,30 @@ pub fn measure(count: usize, threads: usize, runs: usize) -> Result<Json, String
     let start = Clock::Thread.now();
     let scene = freikugel::scene::read(&text).into_result().map_err(|faults| faults[0].message.clone())?;
     let read = Clock::Thread.now() - start;
-    let start = Clock::Thread.now();
-    let renderer = Renderer::new(&scene).map_err(|error| error.to_string())?;
-    let compile = Clock::Thread.now() - start;
-    let picture = |threads: usize, clock: Clock| {
-        let options = Options { threads: Some(threads), ..Options::of(&scene) };
-        let renderer = &renderer;
-        Contender::new("picture", clock, move || {
-            renderer.layers(&options, &()).expect("nobody cancels");
-        })
-    };
-    let contenders = vec![picture(1, Clock::Thread), picture(threads, Clock::Wall)];
-    let times = Row { name: name(count), unit: Unit::Milliseconds, contenders }.run(runs);
-    let [one, all] = [&times[0], &times[1]].map(|times| times.as_ref().map_or(f64::NAN, |times| median(times) * 1e3));
+    let mut compile = Vec::new();
+    let mut times: [Vec<f64>; 4] = Default::default();
+    for _ in 0..runs {
+        for (place, (threads, clock)) in [(1, Clock::Thread), (threads, Clock::Wall)].into_iter().enumerate() {
+            let start = Clock::Thread.now();
+            let renderer = Renderer::new(&scene).map_err(|error| error.to_string())?;
+            compile.push((Clock::Thread.now() - start).as_secs_f64());
+            let options = Options { threads: Some(threads), ..Options::of(&scene) };
+            for times in &mut times[2 * place..2 * place + 2] {
+                let start = clock.now();
+                renderer.layers(&options, &()).map_err(|error| error.to_string())?;
+                times.push((clock.now() - start).as_secs_f64());
+            }
+        }
+    }
+    let milliseconds = |times: &[f64]| median(times) * 1e3;
     Ok(json!({
         "count": count,
         "read_ms": read.as_secs_f64() * 1e3,
-        "compile_ms": compile.as_secs_f64() * 1e3,
-        "picture_cpu_ms": one,
-        "picture_wall_ms": all,
+        "compile_ms": milliseconds(&compile),
+        "first_cpu_ms": milliseconds(&times[0]),
+        "next_cpu_ms": milliseconds(&times[1]),
+        "first_wall_ms": milliseconds(&times[2]),
+        "next_wall_ms": milliseconds(&times[3]),
         "threads": threads,
         "peak_bytes": peak_memory(),
     }))
@@ -78,15 +83,17 @@ pub fn in_process(count: usize, threads: usize, runs: usize) -> Result<Json, Str
 /// One line of the table.
 pub fn markdown(count: usize, figures: &Result<Json, String>) -> String {
     match figures {
-        Err(reason) => format!("| {count} | {reason} | | | | |\n"),
+        Err(reason) => format!("| {count} | {reason} | | | | | | |\n"),
         Ok(figures) => {
             let number = |key: &str| figures[key].as_f64().unwrap_or(f64::NAN);
             format!(
-                "| {count} | {} ms | {} ms | {} ms | {} ms | {} MB |\n",
+                "| {count} | {} ms | {} ms | {} ms | {} ms | {} ms | {} ms | {} MB |\n",
                 short(number("read_ms")),
                 short(number("compile_ms")),
-                short(number("picture_cpu_ms")),
-                short(number("picture_wall_ms")),
+                short(number("first_cpu_ms")),
+                short(number("next_cpu_ms")),
+                short(number("first_wall_ms")),
+                short(number("next_wall_ms")),
                 short(number("peak_bytes") / 1e6)
             )
         }

@@ -337,7 +337,7 @@ impl Compiler {
 }
 
 /// Whether a node's value goes unchanged into the minimum with what is there before.
-fn can_fold(node: &Node) -> bool {
+pub(crate) fn can_fold(node: &Node) -> bool {
     match &node.shape.kind {
         Kind::Primitive(_) => true,
         Kind::Combine(table) => table.is_minimum && node.children.iter().all(|child| can_fold(child.node())),
@@ -349,6 +349,6 @@ fn can_fold(node: &Node) -> bool {
 }
 
 /// Whether a placing node never changes distances, whatever its numbers.
-fn is_rigid(node: &Node) -> bool {
+pub(crate) fn is_rigid(node: &Node) -> bool {
     matches!(&node.shape.kind, Kind::Place(table) if table.is_rigid)
 }

@@ -4,6 +4,7 @@
 //! one kernel call over the whole batch. An evaluator is the scratch memory of one thread.
 
 use crate::bank::{Bank, Gradients, Values};
+use crate::focus::Focus;
 use crate::kernel::{BATCH, Block, CombineJob, WIDEST};
 use crate::operation::{NO_REGION, Step, StepId};
 use crate::program::{Part, Program};
@@ -65,6 +66,7 @@ pub struct Evaluator<'p> {
     pub(crate) seconds: Bank<Seconds>,
     kept: Bank<Values>,
     weights: Vec<Block>,
+    focus: Focus,
 }
 
 impl<'p> Evaluator<'p> {
@@ -83,6 +85,7 @@ impl<'p> Evaluator<'p> {
             seconds: Bank::default(),
             kept: Bank::default(),
             weights: Vec::new(),
+            focus: Focus::default(),
         }
     }
 
@@ -156,14 +159,16 @@ impl<'p> Evaluator<'p> {
     /// If a result has not as many places as there are points.
     pub fn gradients_in(&mut self, part: &Part, points: Points<'_>, values: &mut [f32], gradient: [&mut [f32]; 3]) {
         assert_eq!(points.count(), values.len(), "one place for each point");
-        let listing = part.listing();
-        let Some(result) = listing.result else {
+        if part.steps.result.is_none() {
             values.fill(f32::INFINITY);
             return gradient.into_iter().for_each(|out| out.fill(0.0));
-        };
-        self.gradients.prepare(listing);
+        }
         let [gx, gy, gz] = gradient;
         for batch in batches(values.len()) {
+            let focused = self.focus.on(self.program, part, self.level, points.slice(batch.clone()));
+            let listing = focused.as_ref().unwrap_or(part).listing();
+            let result = listing.result.expect("there is a result");
+            self.gradients.prepare(listing);
             let count = self.gradients.load(points.slice(batch.clone()));
             self.gradients.run(self.program, &listing.ops, self.level, count);
             let from = self.gradients.value(result);
@@ -184,6 +189,9 @@ impl<'p> Evaluator<'p> {
     /// A share is the product of the partial derivatives of all combinations on the way from the region to the result,
     /// computed from the result downwards over the intermediate values of one evaluation.
     pub fn shares_in(&mut self, part: &Part, points: Points<'_>, out: &mut Shares) {
+        // What is left of a long union lists no regions that have no share anywhere.
+        let focused = self.focus.on(self.program, part, self.level, points);
+        let part = focused.as_ref().unwrap_or(part);
         let (listing, regions) = (part.kept(), part.regions());
         out.count = points.count();
         out.regions.clear();

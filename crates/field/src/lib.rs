@@ -25,6 +25,7 @@
 
 pub mod analysis;
 mod bank;
+mod bvh;
 pub mod cells;
 mod compile;
 pub mod contract;
@@ -35,11 +36,13 @@ pub mod evaluator;
 pub mod explore;
 pub mod expr;
 pub mod field;
+mod focus;
 pub mod formula;
 mod formula_kernel;
 pub mod kernel;
 mod lower;
 pub mod nearest;
+mod operands;
 mod operation;
 pub mod program;
 mod prune;

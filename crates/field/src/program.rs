@@ -9,11 +9,13 @@ use crate::expr::{Expr, Graph, Slots};
 use crate::formula::{Binary, Unary};
 use crate::kernel::{CombineFn, CombineKernels, Dual2, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels, affine};
 use crate::lower::Listing;
+use crate::operands::Operands;
 use crate::operation::{Code, Derive, NO_REGION, Run, Step, StepId, Steps, inverse_of};
 use crate::scalar::{Constants, Dual, Interval, Scalar};
 use crate::spine::Spine;
 use crate::vector::{Vec3, spectral_norm};
 use glam::DVec3;
+use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 /// Why numbers could not be bound.
@@ -53,6 +55,7 @@ pub struct Program {
     pub(crate) single: Arc<[f32]>,
     /// For single points: absolute.
     pub(crate) double: Arc<[f64]>,
+    operands: Arc<Operands>,
     origin: DVec3,
     lipschitz: Option<f64>,
 }
@@ -61,13 +64,14 @@ impl Program {
     pub(crate) fn bind(
         code: &Code,
         whole: &Arc<Part>,
+        operands: Arc<Operands>,
         values: &[f64],
         origin: DVec3,
         lipschitz: Option<f64>,
     ) -> Result<Self, BindError> {
         let double = derive(code, values, DVec3::ZERO)?;
         let single = derive(code, values, origin)?.iter().map(|&c| c as f32).collect();
-        Ok(Self { whole: Arc::clone(whole), single, double: double.into(), origin, lipschitz })
+        Ok(Self { whole: Arc::clone(whole), single, double: double.into(), operands, origin, lipschitz })
     }
 
     /// What the points of batches are relative to.
@@ -153,38 +157,56 @@ impl Program {
         &self.double
     }
 
+    /// The fields that it was made of.
+    pub(crate) fn operands(&self) -> &Operands {
+        &self.operands
+    }
+
+    /// The value at a point of a step that is computed from nothing but the steps `own`, in `f64`.
+    pub(crate) fn value_of(&self, own: Range<usize>, result: StepId, p: DVec3) -> f64 {
+        self.run_steps(own, result, p.to_array().into())
+    }
+
     fn run<S: Host>(&self, p: Vec3<S>) -> S {
-        let like = p.x;
         let steps = &self.whole.steps;
-        let Some(result) = steps.result else {
-            return like.lift(f64::INFINITY);
-        };
-        let mut points: Vec<Vec3<S>> = Vec::with_capacity(steps.list.len());
-        let mut values: Vec<S> = Vec::with_capacity(steps.list.len());
-        for step in &steps.list {
+        match steps.result {
+            Some(result) => self.run_steps(1..steps.list.len(), result, p),
+            None => p.x.lift(f64::INFINITY),
+        }
+    }
+
+    /// Runs some steps, which read no others but the point.
+    fn run_steps<S: Host>(&self, own: Range<usize>, result: StepId, p: Vec3<S>) -> S {
+        let like = p.x;
+        let place = |id: StepId| if id == StepId::POINT { 0 } else { id.index() - own.start + 1 };
+        let mut points: Vec<Vec3<S>> = Vec::with_capacity(own.len() + 1);
+        let mut values: Vec<S> = Vec::with_capacity(own.len() + 1);
+        points.push(p);
+        values.push(like);
+        for step in &self.whole.steps.list[own.clone()] {
             let (mut point, mut value) = (p, like);
             match *step {
                 Step::Point => {}
                 Step::Affine { from, constants } => {
-                    let from = points[from.index()];
+                    let from = points[place(from)];
                     point =
                         S::with_table(&self.double, constants, |table| affine(from, &Constants::new(like, table, 12)));
                 }
                 Step::Primitive { table, point: at_point, at, constants, .. } => {
                     let at = S::with_table(&self.double, at, |table| Constants::new(like, table, 3).get::<3>());
-                    let p = points[at_point.index()] - at.into();
+                    let p = points[place(at_point)] - at.into();
                     value = S::with_table(&self.double, constants, |slots| {
                         S::primitive(&table.kernels)(p, &Constants::new(like, slots, constants.len()))
                     });
                 }
                 Step::Combine { table, a, b, constants, .. } => {
-                    let (a, b) = (values[a.index()], values[b.index()]);
+                    let (a, b) = (values[place(a)], values[place(b)]);
                     value = S::with_table(&self.double, constants, |slots| {
                         S::combine(&table.kernels)(a, b, &Constants::new(like, slots, constants.len()))
                     });
                 }
                 Step::Modify { table, from, constants, .. } => {
-                    let from = values[from.index()];
+                    let from = values[place(from)];
                     value = S::with_table(&self.double, constants, |slots| {
                         S::modify(&table.kernels)(from, &Constants::new(like, slots, constants.len()))
                     });
@@ -192,10 +214,10 @@ impl Program {
                 Step::Scale { from, factor } => {
                     let factor = Run::from(factor as usize..factor as usize + 1);
                     let factor = S::with_table(&self.double, factor, |table| like.constant(table, 0));
-                    value = values[from.index()] * factor;
+                    value = values[place(from)] * factor;
                 }
                 Step::Coordinate { point, axis, at } => {
-                    let p = points[point.index()];
+                    let p = points[place(point)];
                     let at = S::with_table(&self.double, at, |table| like.constant(table, usize::from(axis)));
                     value = [p.x, p.y, p.z][usize::from(axis)] - at;
                 }
@@ -203,17 +225,17 @@ impl Program {
                     let run = Run::from(constant as usize..constant as usize + 1);
                     value = S::with_table(&self.double, run, |table| like.constant(table, 0));
                 }
-                Step::Unary { op, from } => value = op.apply(values[from.index()]),
-                Step::Binary { op, a, b } => value = op.apply(values[a.index()], values[b.index()]),
-                Step::Power { from, exponent } => value = values[from.index()].powi(exponent),
-                Step::Surface { from, .. } => value = values[from.index()],
-                Step::Altered { op, from, by } => value = op.apply(values[from.index()], values[by.index()]),
-                Step::Warp { x, y, z } => point = [x, y, z].map(|id| values[id.index()]).into(),
+                Step::Unary { op, from } => value = op.apply(values[place(from)]),
+                Step::Binary { op, a, b } => value = op.apply(values[place(a)], values[place(b)]),
+                Step::Power { from, exponent } => value = values[place(from)].powi(exponent),
+                Step::Surface { from, .. } => value = values[place(from)],
+                Step::Altered { op, from, by } => value = op.apply(values[place(from)], values[place(by)]),
+                Step::Warp { x, y, z } => point = [x, y, z].map(|id| values[place(id)]).into(),
             }
             points.push(point);
             values.push(value);
         }
-        values[result.index()]
+        values[place(result)]
     }
 }
 

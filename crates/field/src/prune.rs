@@ -136,8 +136,8 @@ impl Survey {
         };
         if let Some(spine) = part.spine() {
             let (word, bit) = (place / 64, place % 64);
-            let is_kept = |entry: usize| self.excluded[entry][word] >> bit & 1 == 0;
-            if let Some(result) = excerpt.take(&part.steps, spine, is_kept) {
+            let kept = (0..self.excluded.len()).filter(|&entry| self.excluded[entry][word] >> bit & 1 == 0);
+            if let Some(result) = excerpt.take(&part.steps, spine, kept) {
                 let Excerpt { list, origin } = excerpt;
                 let range = |id: StepId| range(origin[id.index()]);
                 let dropped = mark(program, list, result, window, range, settled, windows);

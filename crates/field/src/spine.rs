@@ -32,7 +32,8 @@ impl Entry {
         self.operand
     }
 
-    fn own(self) -> Range<usize> {
+    /// The steps that it alone is computed from.
+    pub(crate) fn own(self) -> Range<usize> {
         self.first as usize..self.operand.index() + 1
     }
 }
@@ -86,17 +87,15 @@ pub(crate) struct Excerpt {
 }
 
 impl Excerpt {
-    /// Takes over the operands that `keep` names by their places in the chain, and their minimum. Returns the step of the
-    /// result, if an operand was kept.
-    pub(crate) fn take(&mut self, steps: &Steps, spine: &Spine, keep: impl Fn(usize) -> bool) -> Option<StepId> {
+    /// Takes over the operands at these places in the chain, which are in order, and their minimum. Returns the step of the
+    /// result, if there is an operand.
+    pub(crate) fn take(&mut self, steps: &Steps, spine: &Spine, places: impl Iterator<Item = usize>) -> Option<StepId> {
         self.list.clear();
         self.origin.clear();
         self.push(Step::Point, StepId::POINT);
         let mut result = None;
-        for (place, &entry) in spine.entries.iter().enumerate() {
-            if !keep(place) {
-                continue;
-            }
+        for place in places {
+            let entry = spine.entries[place];
             let shift = entry.first - self.list.len() as u32;
             let moved = |id: StepId| if id == StepId::POINT { id } else { StepId(id.0 - shift) };
             for index in entry.own() {

@@ -9,6 +9,7 @@ use crate::analysis::analyse;
 use crate::compile::compile;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::field::Field;
+use crate::operands::Operands;
 use crate::operation::{Code, Region};
 use crate::program::{BindError, Part, Program};
 use glam::DVec3;
@@ -19,7 +20,7 @@ use std::sync::Arc;
 pub struct Structure {
     code: Arc<Code>,
     whole: Arc<Part>,
-    objects: Vec<Field>,
+    operands: Arc<Operands>,
     values: Vec<f64>,
     lipschitz: Option<f64>,
     warnings: Vec<Diagnostic>,
@@ -34,7 +35,14 @@ impl Structure {
         let (lipschitz, warnings) = lipschitz_of_union(objects)?;
         let (code, steps, values) = compile(objects);
         let whole = Arc::new(Part::new(steps));
-        Ok(Self { code: Arc::new(code), whole, objects: objects.to_vec(), values, lipschitz, warnings })
+        Ok(Self {
+            code: Arc::new(code),
+            whole,
+            operands: Arc::new(Operands::new(objects.to_vec())),
+            values,
+            lipschitz,
+            warnings,
+        })
     }
 
     /// The parts of the surface that shares are told apart for.
@@ -69,13 +77,15 @@ impl Structure {
         if self.code.fixed.iter().any(|&slot| values[slot] != self.values[slot]) {
             return Err(BindError::Structure);
         }
-        let mut lipschitz = self.lipschitz;
+        let (mut lipschitz, mut operands) = (self.lipschitz, Arc::clone(&self.operands));
         if values != self.values {
             let mut rest = values;
-            let objects: Vec<Field> = self.objects.iter().map(|object| object.with_numbers(&mut rest)).collect();
+            let objects: Vec<Field> =
+                self.operands.objects().iter().map(|object| object.with_numbers(&mut rest)).collect();
             lipschitz = lipschitz_of_union(&objects).map_err(BindError::Faults)?.0;
+            operands = Arc::new(Operands::new(objects));
         }
-        Program::bind(&self.code, &self.whole, values, origin, lipschitz)
+        Program::bind(&self.code, &self.whole, operands, values, origin, lipschitz)
     }
 
     /// The program with the numbers that the fields were written with.

@@ -23,12 +23,16 @@ fn points_in(cell: &Cell, random: &mut Random, count: usize) -> [Vec<f32>; 3] {
 /// Checks a box and some boxes within.
 fn check(program: &Program, cells: &Cells, cell: &Cell, random: &mut Random, levels: usize) {
     const POINTS: usize = 24;
+    let mut splitter = Splitter::new(simd::best());
+    cells.enter(cell, &mut splitter);
     let [x, y, z] = points_in(cell, random, POINTS);
     let points = Points { x: &x, y: &y, z: &z };
     let mut evaluator = Evaluator::new(program);
     let (mut all, mut own) = ([0.0; POINTS], [0.0; POINTS]);
     evaluator.values(points, &mut all);
-    evaluator.values_in(cell.part(), points, &mut own);
+    // Of a crowded box only the sign is known.
+    let part = if cell.is_crowded() { program.whole() } else { cell.part() };
+    evaluator.values_in(part, points, &mut own);
     let is_measured = program.whole().is_measured();
     let matters = all.map(|value| is_measured || value >= 0.0);
     for (point, (value, own)) in all.into_iter().zip(own).enumerate() {
@@ -45,21 +49,20 @@ fn check(program: &Program, cells: &Cells, cell: &Cell, random: &mut Random, lev
     let [gx, gy, gz] = &mut gradient;
     evaluator.gradients(points, &mut all, [gx, gy, gz]);
     let [gx, gy, gz] = &mut own_gradient;
-    evaluator.gradients_in(cell.part(), points, &mut own, [gx, gy, gz]);
+    evaluator.gradients_in(part, points, &mut own, [gx, gy, gz]);
     for point in (0..POINTS).filter(|&point| matters[point]) {
         assert_eq!(all[point], own[point]);
         assert_eq!(gradient.map(|g| g[point]), own_gradient.map(|g| g[point]));
     }
     let (mut shares, mut own_shares) = (Shares::default(), Shares::default());
     evaluator.shares(points, &mut shares);
-    evaluator.shares_in(cell.part(), points, &mut own_shares);
+    evaluator.shares_in(part, points, &mut own_shares);
     for (region, shares) in shares.iter() {
         for (point, &share) in shares.iter().enumerate().filter(|&(point, _)| matters[point]) {
             assert_eq!(share, own_shares.of(region, point), "region {region}");
         }
     }
     if levels > 0 {
-        let mut splitter = Splitter::new(simd::best());
         let children = cells.children(cell, &mut splitter);
         for _ in 0..4 {
             check(program, cells, &children[random.below(children.len())], random, levels - 1);
@@ -201,7 +204,10 @@ fn steps_left(fields: &[Field], levels: usize) -> f64 {
     }
     let left: Vec<usize> = level
         .into_iter()
-        .filter(|cell| cell.occupancy() == Occupancy::Surface)
+        .filter(|cell| {
+            cells.enter(cell, &mut splitter);
+            cell.occupancy() == Occupancy::Surface
+        })
         .map(|cell| cell.part().size())
         .collect();
     left.iter().sum::<usize>() as f64 / left.len() as f64
@@ -221,4 +227,155 @@ fn distant_operands_are_dropped() {
     let block = std::iter::once(cuboid([4.0, 4.0, 4.0]).into()).chain(holes);
     let left = steps_left(&[difference(block)], 3);
     assert!(left < 5.0, "{left}");
+}
+
+/// Many small objects, some of them moved to see how far from each other they may be.
+fn scattered(count: usize, random: &mut Random) -> Vec<Field> {
+    (0..count)
+        .map(|index| {
+            let place = random.point(2.0).to_array();
+            let size = random.range(0.02, 0.3);
+            match index % 4 {
+                0 => sphere(size).at(place),
+                1 => cuboid([size, 1.5 * size, 0.7 * size]).rotate([1.0, 2.0, 3.0], 77.0).at(place),
+                2 => union::<Field>([sphere(size).into(), sphere(size).at([size, 0.0, 0.0])]).at(place),
+                _ => (sphere(size) - sphere(0.8 * size).at([0.5 * size, 0.0, 0.0])).at(place),
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn parts_hold_for_programs_with_other_origins() {
+    const POINTS: usize = 24;
+    let mut random = Random::new(17);
+    let fields = [
+        scattered(60, &mut random),
+        scattered(400, &mut random),
+        vec![common::tree(5, &mut random)],
+        vec![formula("x^4 + y^4 + z^4 - (x^2 + y^2 + z^2) / 2 + x*y / 5 - 0.1").within_sphere(1.8).into()],
+        vec![cuboid([1.2, 0.8, 1.6]).twist(80.0).rotate([1.0, 2.0, 3.0], 40.0), sphere(0.4).at([1.4, 0.4, 0.0])],
+    ];
+    // Far from the zero of the coordinates, so that origins matter.
+    let far = DVec3::new(40.0, -70.0, 20.0);
+    for fields in fields {
+        let fields: Vec<Field> = fields.into_iter().map(|field| field.at(far.to_array())).collect();
+        let structure = Structure::compile(&fields).expect("sound");
+        let region = Aabb { min: far + REGION.min, max: far + REGION.max };
+        let reach = region.size().length() / 2.0;
+        let cells = Cells::for_origins(&structure.program(region.center()), region, reach);
+        let mut splitter = Splitter::new(simd::best());
+        for _ in 0..40 {
+            let mut cell = cells.root();
+            for _ in 0..random.below(5) {
+                let children = cells.children(cell, &mut splitter);
+                cell = &children[random.below(children.len())];
+            }
+            cells.enter(cell, &mut splitter);
+            if cell.is_crowded() {
+                continue;
+            }
+            let origin = region.center() + random.point(2.5);
+            let program = structure.program(origin);
+            let mut points = points_in(cell, &mut random, POINTS);
+            let shift = (cells.origin() - origin).as_vec3();
+            for (points, shift) in points.iter_mut().zip(shift.to_array()) {
+                points.iter_mut().for_each(|number| *number += shift);
+            }
+            let [x, y, z] = &points;
+            let mut evaluator = Evaluator::new(&program);
+            let (mut all, mut own) = ([0.0; POINTS], [0.0; POINTS]);
+            evaluator.values(Points { x, y, z }, &mut all);
+            evaluator.values_in(cell.part(), Points { x, y, z }, &mut own);
+            let is_measured = program.whole().is_measured();
+            for (value, own) in all.into_iter().zip(own) {
+                assert!(value == own || (!is_measured && value < 0.0 && own < 0.0), "{value} became {own}");
+                match cell.occupancy() {
+                    Occupancy::Outside(least) => assert!(value >= least, "{value} below {least}"),
+                    Occupancy::Inside => assert!(value < 0.0),
+                    Occupancy::Surface => {}
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn boxes_that_were_taken_back_are_the_same_again() {
+    let mut random = Random::new(41);
+    let program = Structure::compile(&scattered(300, &mut random)).expect("sound").program(DVec3::ZERO);
+    let mut cells = Cells::new(&program, REGION);
+    let mut splitter = Splitter::new(simd::best());
+    // What there is two levels down.
+    let mut look = |cells: &Cells| -> Vec<(Occupancy, usize)> {
+        let children = cells.children(cells.root(), &mut splitter).iter();
+        let all: Vec<&Cell> = children.flat_map(|cell| cells.children(cell, &mut splitter)).collect();
+        let look = |cell: &Cell| {
+            cells.enter(cell, &mut Splitter::new(simd::best()));
+            (cell.occupancy(), if cell.is_crowded() { 0 } else { cell.part().size() })
+        };
+        all.into_iter().map(look).collect()
+    };
+    let first = look(&cells);
+    let weight = cells.weight();
+    assert!(weight > 0);
+    cells.trim(usize::MAX);
+    assert_eq!(cells.weight(), weight, "all of it was asked for in this round");
+    cells.turn();
+    let root = cells.root();
+    let asked = cells.children(root, &mut Splitter::new(simd::best()))[21].middle();
+    assert_eq!(asked, cells.children(root, &mut Splitter::new(simd::best()))[21].middle());
+    cells.trim(usize::MAX);
+    let less = cells.weight();
+    assert!(less > 0 && less < weight, "only the first level was asked for: {less} of {weight}");
+    assert_eq!(look(&cells), first);
+    assert_eq!(cells.weight(), weight);
+    cells.trim(weight - 1);
+    assert_eq!(cells.weight(), 0);
+    assert_eq!(look(&cells), first);
+}
+
+#[test]
+fn gradients_and_shares_of_long_unions_are_those_of_the_nearest_operand() {
+    const POINTS: usize = 700;
+    let mut random = Random::new(53);
+    let mut fields = scattered(70, &mut random);
+    // Two at the same place: the first has it all.
+    fields.push(fields[12].clone());
+    let structure = Structure::compile(&fields).expect("sound");
+    let program = structure.program(DVec3::ZERO);
+    let alone: Vec<Program> = fields
+        .iter()
+        .map(|field| Structure::compile(std::slice::from_ref(field)).expect("sound").program(DVec3::ZERO))
+        .collect();
+    let points: [Vec<f32>; 3] = std::array::from_fn(|_| (0..POINTS).map(|_| random.range(-2.5, 2.5) as f32).collect());
+    let [x, y, z] = &points;
+    let points = Points { x, y, z };
+    let evaluate = |program: &Program, points: Points<'_>| {
+        let count = points.count();
+        let mut out: [Vec<f32>; 4] = std::array::from_fn(|_| vec![0.0; count]);
+        let [values, gx, gy, gz] = &mut out;
+        Evaluator::new(program).gradients(points, values, [gx, gy, gz]);
+        out
+    };
+    let all = evaluate(&program, points);
+    let single: Vec<_> = alone.iter().map(|program| evaluate(program, points)).collect();
+    let mut shares = Shares::default();
+    Evaluator::new(&program).shares(points, &mut shares);
+    for point in 0..POINTS {
+        let nearest = (0..single.len()).min_by(|&a, &b| single[a][0][point].total_cmp(&single[b][0][point]));
+        let nearest = nearest.expect("there are some");
+        assert_eq!([0, 1, 2, 3].map(|k| all[k][point]), [0, 1, 2, 3].map(|k| single[nearest][k][point]));
+        for (region, shares) in shares.iter() {
+            let expected = if structure.regions()[region].object == nearest { 1.0 } else { 0.0 };
+            assert_eq!(shares[point], expected);
+        }
+        // One point alone comes to the same as many together.
+        if point % 50 == 0 {
+            let one = |numbers: &[f32]| [numbers[point]];
+            let [x, y, z] = [one(x), one(y), one(z)];
+            let own = evaluate(&program, Points { x: &x, y: &y, z: &z });
+            assert_eq!([0, 1, 2, 3].map(|k| own[k][0]), [0, 1, 2, 3].map(|k| all[k][point]));
+        }
+    }
 }

@@ -3,7 +3,8 @@
 //! A [`Scene`](freikugel_scene::Scene) goes in; [`render`] compiles its fields, traces rays through the pixels that the
 //! [`Options`] name, lights what they hit, and returns a [`Rendered`]: an [`Image`] of linear colours, and [`Stats`] that
 //! say what it took and what could not be resolved. [`encode_png`] and [`encode_exr`] make files of it. Who renders
-//! several pictures of one scene keeps the [`Renderer`], which holds the compiled fields.
+//! several pictures of one scene keeps the [`Renderer`], which holds the compiled fields and what pictures found out about
+//! them: the next picture is faster, from whatever side.
 //!
 //! ```
 //! use freikugel_field::shapes::sphere;
@@ -44,6 +45,7 @@ mod encode;
 mod filter;
 mod fixed;
 mod image;
+mod keep;
 mod layers;
 mod light;
 mod loose;

@@ -1,10 +1,10 @@
 //! What to compute: the size of the picture, the part of it, the samples, and how much of the machine to use.
 //!
-//! The last two never change a byte of the result: tiles are anchored to the full frame, pixels are
+//! How much of the machine never changes a byte of the result: tiles are anchored to the full frame, pixels are
 //! independent of each other, and all instruction sets compute the same bits.
 
 use freikugel_field::simd::Level;
-use freikugel_scene::Scene;
+use freikugel_scene::{Camera, Scene};
 use std::fmt;
 
 /// The longest side of a picture in pixels; beyond 2^24, single precision could not tell pixels apart.
@@ -40,6 +40,8 @@ pub struct Options {
     pub level: Option<Level>,
     /// The side of the square tiles that threads take in turn, in pixels.
     pub tile: u32,
+    /// From where; as the scene says if not given.
+    pub camera: Option<Camera>,
 }
 
 /// A part of a frame, in pixels. Row 0 is on top.
@@ -79,7 +81,7 @@ pub enum OptionsError {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { width: 640, height: 360, samples: 16, crop: None, threads: None, level: None, tile: 32 }
+        Self { width: 640, height: 360, samples: 16, crop: None, threads: None, level: None, tile: 32, camera: None }
     }
 }
 

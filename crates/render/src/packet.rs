@@ -38,6 +38,8 @@ const FORMULA_PIXELS: f32 = 48.0;
 /// What rays travel through.
 pub(crate) struct Space<'f> {
     pub(crate) cells: &'f Cells,
+    /// Where the origin of the cells lies, relative to that of the rays.
+    pub(crate) shift: Triple,
     /// The camera, and the width of a pixel there and what that gains per unit of distance.
     pub(crate) eye: Triple,
     pub(crate) pixel: [f32; 2],
@@ -66,6 +68,14 @@ pub(crate) enum Quest {
     Any,
     /// The least ratio of clearance to distance, or any surface.
     Least,
+}
+
+impl Space<'_> {
+    /// The middle of a cell, relative to the origin of the rays.
+    pub(crate) fn middle(&self, cell: &Cell) -> Triple {
+        let middle = cell.middle();
+        std::array::from_fn(|axis| middle[axis] + self.shift[axis])
+    }
 }
 
 /// Rays to be traced together.
@@ -183,8 +193,13 @@ impl<'f> Trip<'_, 'f, '_> {
         if bundle.is_done() {
             return 0;
         }
+        self.space.cells.enter(cell, self.splitter);
+        // More may be known now.
+        if self.is_of_no_interest(cell) {
+            return 0;
+        }
         if self.is_small(cell) {
-            let rows = bundle.meet(self.field.level(), cell.middle(), cell.half());
+            let rows = bundle.meet(self.field.level(), self.space.middle(cell), cell.half());
             let pace = self.pace_of(cell);
             return self.cross(bundle, rows, cell, pace);
         }
@@ -197,7 +212,7 @@ impl<'f> Trip<'_, 'f, '_> {
             for (place, slab) in slabs[..side].iter_mut().enumerate() {
                 let index = if shaft.rises(axis) { place } else { side - 1 - place };
                 let child = &children[index * strides[axis]];
-                *slab = (index * strides[axis], shaft.slab(axis, child.middle()[axis], child.half()[axis]));
+                *slab = (index * strides[axis], shaft.slab(axis, self.space.middle(child)[axis], child.half()[axis]));
             }
         }
         let meet = |[near, far]: [f32; 2], [first, last]: [f32; 2]| [near.max(first), far.min(last)];
@@ -234,6 +249,9 @@ impl<'f> Trip<'_, 'f, '_> {
     }
 
     fn is_small(&self, cell: &Cell) -> bool {
+        if cell.is_crowded() {
+            return self.space.manner == Manner::Plain;
+        }
         let part = cell.part();
         let (small, pixels) = match (part.is_measured() && self.may_march(), part.is_warped()) {
             (true, _) => (SMALL_PART, CELL_PIXELS),
@@ -250,7 +268,7 @@ impl<'f> Trip<'_, 'f, '_> {
         {
             return true;
         }
-        let (middle, half, eye) = (cell.middle(), cell.half(), self.space.eye);
+        let (middle, half, eye) = (self.space.middle(cell), cell.half(), self.space.eye);
         let gap = |axis: usize| ((middle[axis] - eye[axis]).abs() - half[axis]).max(0.0);
         let distance = length([gap(0), gap(1), gap(2)]);
         let [fixed, growth] = self.space.pixel;
@@ -262,7 +280,7 @@ impl<'f> Trip<'_, 'f, '_> {
         if self.quest != Quest::Least {
             return 0;
         }
-        bundle.meet(self.field.level(), root.middle(), root.half());
+        bundle.meet(self.field.level(), self.space.middle(root), root.half());
         let rows = bundle.outside(is_behind);
         let pace = root.part().is_measured().then_some(self.space.pace);
         self.cross(bundle, rows, root, pace)

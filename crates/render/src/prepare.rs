@@ -4,6 +4,7 @@
 //! fields, and which objects are marched and which are intersected exactly. A [`Frame`] adds what belongs to one
 //! picture: the programs relative to its origin, the view, the lights as seen from there, and the tolerances.
 
+use crate::keep::{Keep, Site};
 use crate::light::Lamp;
 use crate::march::Pace;
 use crate::options::Options;
@@ -19,6 +20,7 @@ use freikugel_field::{
 use freikugel_scene::{Camera, Material, Method, Scene, Tracer};
 use glam::DVec3;
 use std::fmt;
+use std::sync::Arc;
 
 /// The part of half a ray's share of its pixel that a surface may be missed by. The default precision is coarser than
 /// that at all but the smallest sizes.
@@ -85,6 +87,8 @@ pub struct Renderer<'s> {
     everything: Option<Structure>,
     /// The box around all objects of finite size.
     extent: Option<Aabb>,
+    /// The cells of the marched union.
+    keep: Keep,
 }
 
 /// What a part of a surface looks like.
@@ -212,6 +216,7 @@ impl<'s> Renderer<'s> {
                 Extent::Finite(extent) => Some(extent),
                 Extent::Empty | Extent::Unbounded => None,
             },
+            keep: Keep::default(),
         })
     }
 
@@ -223,6 +228,26 @@ impl<'s> Renderer<'s> {
     /// The scene's camera, or the one that frames it in a picture of this size.
     pub fn camera(&self, width: u32, height: u32) -> Camera {
         self.scene.camera.clone().unwrap_or_else(|| framed(self.extent, width, height))
+    }
+}
+
+impl Renderer<'_> {
+    /// Where the cells of a picture lie that marches within `bounds`: at the same place for all pictures, if that can be.
+    fn site(&self, camera: &Camera, bounds: Option<Aabb>) -> Site {
+        // The origins of pictures lie in the extent, if there is one.
+        let (origin, reach) = match self.extent {
+            Some(extent) => (extent.center(), extent.size().length() / 2.0),
+            None => (camera.target, 0.0),
+        };
+        let region = bounds.unwrap_or_else(|| {
+            // Where a ray can get to from what the camera sees; rounded up, so that it is the same for many cameras.
+            let way = 2.0 * self.scene.tracer.max_distance + camera.eye.distance(camera.target);
+            let far = way + camera.eye.distance(origin);
+            let reach = std::iter::successors(Some(1.0), |reach| Some(2.0 * reach)).find(|&reach| reach >= far);
+            let reach = reach.unwrap_or(far);
+            Aabb { min: origin - reach, max: origin + reach }
+        });
+        Site { origin, reach, region }
     }
 }
 
@@ -298,7 +323,7 @@ pub(crate) struct Frame<'r> {
     /// Where to look for marched objects; everywhere if they have no bounds.
     pub(crate) bounds: Option<Aabb>,
     /// The cells of the marched program.
-    pub(crate) cells: Option<Cells>,
+    pub(crate) cells: Option<Arc<Cells>>,
     /// The camera, relative to the origin.
     pub(crate) eye: Triple,
     pub(crate) occlusion: Option<OcclusionSamples>,
@@ -330,7 +355,7 @@ pub(crate) struct OcclusionSamples {
 impl<'r> Frame<'r> {
     pub(crate) fn new(renderer: &'r Renderer<'_>, options: &Options) -> Result<Self, PrepareError> {
         let scene = renderer.scene;
-        let camera = renderer.camera(options.width, options.height);
+        let camera = options.camera.clone().unwrap_or_else(|| renderer.camera(options.width, options.height));
         let view = View::new(&camera, options.width, options.height).map_err(PrepareError::Camera)?;
         // Where single precision is finest should be what the camera sees from nearest by.
         let origin = match renderer.extent {
@@ -372,11 +397,7 @@ impl<'r> Frame<'r> {
             Extent::Finite(bounds) => Some(widened(bounds)),
             Extent::Empty | Extent::Unbounded => None,
         };
-        let region = bounds.unwrap_or_else(|| {
-            // Where a ray can get to from what the camera sees.
-            let reach = DVec3::splat(2.0 * scene.tracer.max_distance + camera.eye.distance(camera.target));
-            Aabb { min: camera.eye - reach, max: camera.eye + reach }
-        });
+        let site = renderer.site(&camera, bounds);
         Ok(Self {
             renderer,
             view,
@@ -392,7 +413,7 @@ impl<'r> Frame<'r> {
             },
             tolerance,
             bounds,
-            cells: marched.as_ref().map(|program| Cells::new(program, region)),
+            cells: renderer.marched.as_ref().map(|structure| renderer.keep.cells(structure, site)),
             eye: (camera.eye - origin).as_vec3().to_array(),
             occlusion: scene.occlusion.as_ref().map(|occlusion| {
                 let reach = occlusion.reach.unwrap_or(size * OCCLUSION_REACH);

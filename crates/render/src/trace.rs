@@ -338,13 +338,14 @@ impl<'f> Tracer<'f> {
 impl Frame<'_> {
     /// What marching rays travel through.
     pub(crate) fn space(&self) -> Option<Space<'_>> {
-        let cells = self.cells.as_ref()?;
+        let cells = self.cells.as_deref()?;
+        let shift = (cells.origin() - self.origin).as_vec3().to_array();
         let manner = match self.renderer.scene.tracer.method {
             Method::Auto => Manner::Fitting,
             Method::Guaranteed => Manner::Searching,
             Method::Fixed | Method::Sphere | Method::Relaxed => Manner::Plain,
         };
-        Some(Space { cells, eye: self.eye, pixel: self.footprint, pace: self.pace, manner })
+        Some(Space { cells, shift, eye: self.eye, pixel: self.footprint, pace: self.pace, manner })
     }
 
     /// The width of the cone around a ray at a distance from the camera.

@@ -7,7 +7,7 @@ use freikugel_field::shapes::*;
 use freikugel_field::simd;
 use freikugel_render::{Options, Progress, Rect, RenderError, Renderer, render};
 use freikugel_scene::{
-    Ambient, Background, Light, Material, Method, Occlusion, Pattern, Point, Scene, Shadow, Spot, Sun, Tracer,
+    Ambient, Background, Camera, Light, Material, Method, Occlusion, Pattern, Point, Scene, Shadow, Spot, Sun, Tracer,
 };
 use glam::DVec3;
 use std::sync::Mutex;
@@ -155,6 +155,40 @@ fn a_renderer_can_be_used_again() {
     let other = renderer.render(&Options { width: 48, height: 32, ..options.clone() }, &());
     assert_eq!(other.expect("a picture").image.width(), 48);
     assert_eq!(renderer.render(&options, &()).expect("a picture").image, first);
+}
+
+#[test]
+fn kept_cells_change_nothing() {
+    // Cameras on all sides and within; a scene with planes and one of bounded objects alone.
+    let cameras: Vec<Camera> = [[3.0, -4.0, 2.0], [-2.0, 3.0, 4.0], [0.1, -0.9, 1.4], [9.0, 0.0, 1.0]]
+        .into_iter()
+        .map(|eye| Camera { eye: DVec3::from_array(eye), target: DVec3::new(0.0, 0.0, 0.4), ..Camera::default() })
+        .collect();
+    let mut bounded = rich();
+    bounded.objects.pop();
+    for scene in [rich(), bounded] {
+        let with = |camera: &Camera| Scene { camera: Some(camera.clone()), ..scene.clone() };
+        let scenes: Vec<Scene> = cameras.iter().map(with).collect();
+        let options = Options { threads: Some(2), tile: 16, ..options(40, 30) };
+        let fresh: Vec<_> = scenes.iter().map(|scene| bits(scene, &options)).collect();
+        let renderer = Renderer::new(&scene).expect("a sound scene");
+        let shot = |camera: usize| {
+            let options = Options { camera: Some(cameras[camera].clone()), ..options.clone() };
+            let picture = renderer.render(&options, &()).expect("a picture");
+            picture.image.pixels().iter().map(|c| c.map(f32::to_bits)).collect::<Vec<_>>()
+        };
+        for camera in [0, 1, 2, 3, 2, 0, 3, 1] {
+            assert!(shot(camera) == fresh[camera], "camera {camera}");
+        }
+        // Several at once.
+        std::thread::scope(|scope| {
+            let shot = &shot;
+            let shots: Vec<_> = (0..4).map(|camera| (camera, scope.spawn(move || shot(camera)))).collect();
+            for (camera, shot) in shots {
+                assert!(shot.join().expect("no panic") == fresh[camera], "camera {camera}");
+            }
+        });
+    }
 }
 
 #[test]
