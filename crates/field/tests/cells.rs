@@ -6,7 +6,9 @@ mod common;
 use common::Random;
 use freikugel_field::shapes::*;
 use freikugel_field::simd;
-use freikugel_field::{Aabb, Cell, Cells, Evaluator, Field, Occupancy, Points, Program, Shares, Splitter, Structure};
+use freikugel_field::{
+    Aabb, Cell, Cells, Evaluator, Field, MaterialId, Occupancy, Points, Program, Shares, Splitter, Structure,
+};
 use glam::DVec3;
 
 const REGION: Aabb = Aabb { min: DVec3::splat(-2.5), max: DVec3::splat(2.5) };
@@ -378,4 +380,48 @@ fn gradients_and_shares_of_long_unions_are_those_of_the_nearest_operand() {
             assert_eq!([0, 1, 2, 3].map(|k| own[k][0]), [0, 1, 2, 3].map(|k| all[k][point]));
         }
     }
+}
+
+#[test]
+fn crowds_compute_the_same() {
+    let mut random = Random::new(67);
+    let many = scattered(200, &mut random);
+    let with = |more: Vec<Field>| many.iter().cloned().chain(more).collect::<Vec<Field>>();
+    let bounds = |random: &mut Random| {
+        (0..150)
+            .map(|_| {
+                let place = random.point(2.0).to_array();
+                smooth_union::<Field>(0.1, [sphere(0.2).into(), sphere(0.15).at([0.3, 0.0, 0.0])]).scale(0.5).at(place)
+            })
+            .collect::<Vec<Field>>()
+    };
+    let crowds = [
+        // One far away, one that holds everything, and tiny ones in a spot.
+        with(vec![sphere(1.0).at([900.0, -700.0, 400.0])]),
+        with(vec![sphere(2.4).at([0.3, 0.0, 0.0]), sphere(1e-4).at([0.5, 0.5, 0.5])]),
+        (0..200).map(|_| sphere(1e-3).at((random.point(0.01) + 0.7).to_array())).collect(),
+        // All at one place, the same ones and others.
+        (0..200).map(|_| sphere(0.5).at([0.1, 0.2, 0.3])).collect(),
+        (0..200).map(|k| cuboid([0.5, 0.5, 1.0]).rotate([0.0, 0.0, 1.0], f64::from(k)).at([0.1, 0.2, 0.3])).collect(),
+        // Some without a box, some without a slope.
+        with(vec![plane([0.0, 0.0, 1.0]).into(), plane([1.0, 0.0, 0.2]).at([2.0, 0.0, 0.0])]),
+        with(vec![formula("x^2 + 2y^2 + z^2 - 0.6").within_sphere(1.8).into()]),
+        bounds(&mut random),
+        // Nested, painted, moved, and one that is empty.
+        vec![union(many[..100].to_vec()).at([0.1, 0.0, 0.0]), union(many[100..].to_vec()).painted(MaterialId(3))],
+        with(vec![intersection::<Field>([sphere(0.2).into(), sphere(0.2).at([1.0, 0.0, 0.0])])]),
+    ];
+    for crowd in crowds {
+        check_field(&crowd, &mut random);
+    }
+}
+
+#[test]
+fn a_crowd_keeps_no_more_than_a_survey_of_all_of_it() {
+    // The same union as a crowd, and behind a step that hides it from the search, so that all of it is surveyed.
+    let mut random = Random::new(71);
+    let many = scattered(600, &mut random);
+    let hidden = [union(many.clone()).scale(1.0)];
+    let (crowd, hidden) = (steps_left(&many, 3), steps_left(&hidden, 3));
+    assert!(crowd <= 1.05 * hidden, "{crowd} and {hidden}");
 }
