@@ -29,9 +29,12 @@ const SPLIT_OF_LARGE: usize = 2;
 /// How many steps make a part large.
 const LARGE: usize = 1 << 14;
 
-/// Boxes this deep are no longer taken as crowded: what still has many operands there has them in one spot, and no box
-/// however small would hold fewer of them.
-const DEEPEST_CROWD: u8 = 12;
+/// A box with more than this share of the operands of the box it is part of is no better than that.
+const NO_PROGRESS: f64 = 0.75;
+
+/// After so many boxes in a row without progress a box is no longer taken as crowded: its operands are in one spot, and
+/// smaller boxes there would hold no fewer of them.
+const MOST_STAGNANT: u8 = 2;
 
 /// What is known about the field's sign in a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,8 +53,8 @@ pub struct Cell {
     half: [f32; 3],
     /// What boxes overlap by besides [`OVERLAP`].
     seam: f32,
-    /// How often the region was split to get it.
-    depth: u8,
+    /// The crowded box that it is part of.
+    crowding: Crowding,
     /// What is known before the box is entered.
     occupancy: Occupancy,
     content: OnceLock<Content>,
@@ -61,12 +64,21 @@ pub struct Cell {
     round: AtomicU32,
 }
 
+/// How crowded a box is.
+#[derive(Clone, Copy, Default)]
+struct Crowding {
+    /// The operands that matter.
+    operands: usize,
+    /// How many boxes in a row, up to this one, made no progress.
+    stagnant: u8,
+}
+
 /// What is found out about a box when it is entered.
 #[derive(Clone)]
 struct Content {
     occupancy: Occupancy,
-    /// Whether so many operands of a union matter in the box that its parts are made from the union as a whole.
-    is_crowded: bool,
+    /// Set where so many operands of a union matter in the box that its parts are made from the union as a whole.
+    crowding: Option<Crowding>,
     /// What matters in the box; nothing is made for crowded boxes.
     part: Option<Arc<Part>>,
 }
@@ -170,9 +182,11 @@ impl Cells {
         let middle = (region.center() - program.origin()).as_vec3().to_array();
         let half = (region.size() * 0.5).as_vec3().to_array();
         let seam = OVERLAP * reach as f32;
-        let is_crowded = Crowd::of(program).is_some();
-        let content = Content { occupancy: Occupancy::Surface, is_crowded, part: Some(Arc::clone(&program.whole)) };
-        let root = Cell { content: content.into(), ..Cell::new(middle, half, seam, 0, Occupancy::Surface) };
+        let crowding =
+            Crowd::of(program).map(|crowd| Crowding { operands: crowd.spine().entries().len(), stagnant: 0 });
+        let content = Content { occupancy: Occupancy::Surface, crowding, part: Some(Arc::clone(&program.whole)) };
+        let root =
+            Cell { content: content.into(), ..Cell::new(middle, half, seam, Crowding::default(), Occupancy::Surface) };
         Self { program: program.clone(), root, weight: AtomicUsize::new(0), round: AtomicU32::new(0) }
     }
 
@@ -304,9 +318,9 @@ impl Slope {
 }
 
 impl Cell {
-    fn new(middle: [f32; 3], half: [f32; 3], seam: f32, depth: u8, occupancy: Occupancy) -> Self {
+    fn new(middle: [f32; 3], half: [f32; 3], seam: f32, crowding: Crowding, occupancy: Occupancy) -> Self {
         let (content, slope, children) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        Self { middle, half, seam, depth, occupancy, content, slope, children, round: AtomicU32::new(0) }
+        Self { middle, half, seam, crowding, occupancy, content, slope, children, round: AtomicU32::new(0) }
     }
 
     /// The middle.
@@ -327,7 +341,7 @@ impl Cell {
     /// Whether so many operands of a union matter here that a part is not worth making: the box is there to be split. Never
     /// so before it is entered.
     pub fn is_crowded(&self) -> bool {
-        self.content.get().is_some_and(|content| content.is_crowded)
+        self.content.get().is_some_and(|content| content.crowding.is_some())
     }
 
     /// What matters here.
@@ -389,9 +403,9 @@ fn split(program: &Program, cell: &Cell, splitter: &mut Splitter) -> Box<[Cell]>
                 Occupancy::Surface => survey.reduce(program, part, place, Wanted::Surface),
                 _ => Arc::clone(part),
             };
-            let content = Content { occupancy, is_crowded: false, part: Some(part) };
+            let content = Content { occupancy, crowding: None, part: Some(part) };
             let middle = [x[place], y[place], z[place]];
-            Cell { content: content.into(), ..Cell::new(middle, half, cell.seam, cell.depth + 1, occupancy) }
+            Cell { content: content.into(), ..Cell::new(middle, half, cell.seam, Crowding::default(), occupancy) }
         })
         .collect()
 }
@@ -399,6 +413,7 @@ fn split(program: &Program, cell: &Cell, splitter: &mut Splitter) -> Box<[Cell]>
 /// Splits a crowded box. Nothing is found out about its parts but whether they are empty: most will never be entered.
 fn split_crowd(program: &Program, cell: &Cell, splitter: &mut Splitter) -> Box<[Cell]> {
     let crowd = Crowd::of(program).expect("a crowded box belongs to a crowd");
+    let crowding = cell.content.get().and_then(|content| content.crowding).expect("it is crowded");
     let ([x, y, z], half) = places(cell, SPLIT);
     (0..x.len())
         .map(|place| {
@@ -406,7 +421,7 @@ fn split_crowd(program: &Program, cell: &Cell, splitter: &mut Splitter) -> Box<[
             let place = in_world(program, middle, holding(middle.map(f32::abs), half, cell.seam));
             let floor = crowd.floor(place, &mut splitter.search) as f32;
             let occupancy = if floor > 0.0 { Occupancy::Outside(floor.next_down()) } else { Occupancy::Surface };
-            Cell::new(middle, half, cell.seam, cell.depth + 1, occupancy)
+            Cell::new(middle, half, cell.seam, crowding, occupancy)
         })
         .collect()
 }
@@ -418,8 +433,11 @@ fn find_content(program: &Program, cell: &Cell, splitter: &mut Splitter) -> Cont
     let half = holding(cell.middle.map(f32::abs), cell.half, cell.seam);
     crowd.find(in_world(program, cell.middle, half), search);
     let occupancy = cell.occupancy;
-    if occupancy == Occupancy::Surface && search.found.len() > CROWD && cell.depth < DEEPEST_CROWD {
-        return Content { occupancy, is_crowded: true, part: None };
+    let (operands, above) = (search.found.len(), cell.crowding);
+    let is_stagnant = operands as f64 > NO_PROGRESS * above.operands as f64;
+    let crowding = Crowding { operands, stagnant: if is_stagnant { above.stagnant + 1 } else { 0 } };
+    if occupancy == Occupancy::Surface && operands > CROWD && crowding.stagnant <= MOST_STAGNANT {
+        return Content { occupancy, crowding: Some(crowding), part: None };
     }
     let operands = search.found.iter().map(|&operand| operand as usize);
     let result = excerpt.take(&program.whole.steps, crowd.spine(), operands);
@@ -436,7 +454,7 @@ fn find_content(program: &Program, cell: &Cell, splitter: &mut Splitter) -> Cont
         Occupancy::Inside => part,
         Occupancy::Outside(_) | Occupancy::Surface => survey.reduce(program, &part, 0, Wanted::Surface),
     };
-    Content { occupancy, is_crowded: false, part: Some(part) }
+    Content { occupancy, crowding: None, part: Some(part) }
 }
 
 /// Half the edge lengths of the boxes that parts must hold in.
