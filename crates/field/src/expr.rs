@@ -6,10 +6,11 @@
 //! its state.
 
 use crate::scalar::{Constants, Scalar};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
+mod gradient;
 pub mod wgsl;
 
 /// An operation with one operand.
@@ -51,7 +52,7 @@ pub enum Binary {
 /// One entry of a graph; operands are indices of earlier entries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Term {
-    /// A coordinate of the point: 0, 1 or 2.
+    /// What the formula is about: of a point, coordinate 0, 1 or 2.
     Input(u32),
     /// An entry of the table of constants.
     Slot(u32),
@@ -90,6 +91,8 @@ pub struct Graph {
     terms: RefCell<Vec<Term>>,
     known: RefCell<HashMap<Term, u32>>,
     loops: RefCell<Vec<Loop>>,
+    /// Whether sums with 0 and products with 0 and 1 are recorded as what they come to.
+    tidies: Cell<bool>,
 }
 
 impl Graph {
@@ -100,7 +103,12 @@ impl Graph {
 
     /// The point the formula is about.
     pub fn point(&self) -> [Expr<'_>; 3] {
-        [0, 1, 2].map(|axis| self.term(Term::Input(axis)))
+        [0, 1, 2].map(|axis| self.input(axis))
+    }
+
+    /// A number that the formula is about.
+    pub fn input(&self, index: u32) -> Expr<'_> {
+        self.term(Term::Input(index))
     }
 
     /// All terms in the order of evaluation.
@@ -121,6 +129,25 @@ impl Graph {
             (terms.len() - 1) as u32
         });
         Expr { graph: self, id }
+    }
+
+    fn begin_loop(&self, limit: u32, start: Vec<u32>) -> u32 {
+        let mut loops = self.loops.borrow_mut();
+        loops.push(Loop { limit, start, next: Vec::new(), go_on: 0 });
+        (loops.len() - 1) as u32
+    }
+
+    fn end_loop(&self, this: u32, next: Vec<u32>, go_on: u32) {
+        let this = &mut self.loops.borrow_mut()[this as usize];
+        (this.next, this.go_on) = (next, go_on);
+    }
+
+    /// The number that a term is, if it is one.
+    fn literal(&self, id: u32) -> Option<f64> {
+        match self.terms.borrow()[id as usize] {
+            Term::Literal(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        }
     }
 
     /// For each term, the innermost loop it must be computed inside, if any.
@@ -290,11 +317,39 @@ impl<'g> Expr<'g> {
     }
 
     fn unary(self, op: Unary) -> Self {
+        if self.graph.tidies.get() && op == Unary::Neg {
+            match self.graph.terms.borrow()[self.id as usize] {
+                Term::Unary(Unary::Neg, id) => return Self { id, ..self },
+                Term::Literal(0) => return self,
+                _ => {}
+            }
+        }
         self.graph.term(Term::Unary(op, self.id))
     }
 
     fn binary(self, op: Binary, rhs: Self) -> Self {
+        if self.graph.tidies.get()
+            && let Some(tidy) = self.tidied(op, rhs)
+        {
+            return tidy;
+        }
         self.graph.term(Term::Binary(op, self.id, rhs.id))
+    }
+
+    /// What an operation comes to if one of the numbers is 0 or 1.
+    fn tidied(self, op: Binary, rhs: Self) -> Option<Self> {
+        let (a, b) = (self.graph.literal(self.id), self.graph.literal(rhs.id));
+        Some(match (op, a, b) {
+            (Binary::Add, Some(0.0), _) => rhs,
+            (Binary::Add | Binary::Sub, _, Some(0.0)) => self,
+            (Binary::Sub, Some(0.0), _) => -rhs,
+            (Binary::Mul, Some(0.0), _) | (Binary::Mul, _, Some(1.0)) => self,
+            (Binary::Mul, Some(1.0), _) | (Binary::Mul, _, Some(0.0)) => rhs,
+            (Binary::Div, Some(0.0), _) | (Binary::Div, _, Some(1.0)) => self,
+            (Binary::Mul, Some(-1.0), _) => -rhs,
+            (Binary::Mul, _, Some(-1.0)) => -self,
+            _ => return None,
+        })
     }
 
     /// The constants that start at slot `first`.
@@ -374,6 +429,9 @@ impl<'g> Scalar for Expr<'g> {
     }
 
     fn select(mask: Condition<'g>, yes: Self, no: Self) -> Self {
+        if yes.graph.tidies.get() && yes.id == no.id {
+            return yes;
+        }
         yes.graph.term(Term::Select(mask.0.id, yes.id, no.id))
     }
 
@@ -458,23 +516,14 @@ impl<'g> Scalar for Expr<'g> {
             return state;
         };
         let graph = first.graph;
-        let start: Vec<u32> = state.iter().map(|s| s.id).collect();
-        let this = {
-            let mut loops = graph.loops.borrow_mut();
-            loops.push(Loop { limit, start, next: Vec::new(), go_on: 0 });
-            (loops.len() - 1) as u32
-        };
+        let this = graph.begin_loop(limit, state.iter().map(|s| s.id).collect());
         let mut place = 0;
         let before = [(); N].map(|()| {
             place += 1;
             graph.term(Term::State(this, place - 1))
         });
         let (next, go_on) = step(before);
-        {
-            let mut loops = graph.loops.borrow_mut();
-            loops[this as usize].next = next.iter().map(|s| s.id).collect();
-            loops[this as usize].go_on = go_on.0.id;
-        }
+        graph.end_loop(this, next.iter().map(|s| s.id).collect(), go_on.0.id);
         let mut place = 0;
         [(); N].map(|()| {
             place += 1;

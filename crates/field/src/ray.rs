@@ -34,6 +34,11 @@ impl ExactRay {
         }
     }
 
+    /// The surface.
+    pub fn form(&self) -> ExactForm {
+        self.0
+    }
+
     /// The distance along the ray from `origin` along the unit vector `direction` to the first point on the surface or
     /// inside, if there is one.
     pub fn hit(&self, origin: DVec3, direction: DVec3) -> Option<f64> {

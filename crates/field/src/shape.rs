@@ -10,6 +10,7 @@
 //! - [`Modify`]: one distance to another.
 
 use crate::contract::Contract;
+use crate::expr::Expr;
 use crate::kernel::{CombineKernels, ModifyKernels, PrimitiveKernel, PrimitiveKernels};
 use crate::scalar::{Constants, Interval, Scalar};
 use crate::vector::Vec3;
@@ -420,6 +421,7 @@ pub struct CombineTable {
     pub hull: Hull,
     pub level: fn(&[f64], f64, usize) -> f64,
     pub kernels: CombineKernels,
+    pub share: for<'g> fn(Expr<'g>, Expr<'g>, &Constants<'_, Expr<'g>>) -> Expr<'g>,
 }
 
 /// The functions of a [`Place`].
@@ -464,6 +466,9 @@ impl Shape {
 
     /// The descriptor of a way to combine fields.
     pub const fn combine<C: Combine>() -> Self {
+        fn share<'g, C: Combine>(a: Expr<'g>, b: Expr<'g>, c: &Constants<'_, Expr<'g>>) -> Expr<'g> {
+            C::share(a, b, c)
+        }
         Self {
             about: C::ABOUT,
             kind: Kind::Combine(CombineTable {
@@ -474,6 +479,7 @@ impl Shape {
                 hull: C::HULL,
                 level: C::level,
                 kernels: CombineKernels::of::<C>(),
+                share: share::<C>,
             }),
         }
     }

@@ -72,6 +72,7 @@ pub use encode::{Compression, EncodeError, encode_exr, encode_png};
 pub use image::{Image, Tone, srgb_encode8};
 pub use layers::{Layer, Layers};
 pub use options::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_TILE, Options, OptionsError, Rect};
+pub use prepare::plan::{self, Plan};
 pub use prepare::{PrepareError, Renderer};
 pub use run::{Progress, RenderError, Rendered, render};
 pub use section::Section;

@@ -13,7 +13,7 @@ const NEAREST: f32 = 1e-6;
 
 /// Where light comes from.
 #[derive(Clone, Copy, Debug)]
-enum Emitter {
+pub(crate) enum Emitter {
     /// From one direction, from afar.
     Sun { direction: Triple },
     /// From a point, into all directions or into a cone.
@@ -22,11 +22,11 @@ enum Emitter {
 
 /// The cone of a spot light.
 #[derive(Clone, Copy, Debug)]
-struct Cone {
-    axis: Triple,
+pub(crate) struct Cone {
+    pub(crate) axis: Triple,
     /// Cosines of the angles where the light ends and where it begins to fade.
-    outer: f32,
-    inner: f32,
+    pub(crate) outer: f32,
+    pub(crate) inner: f32,
 }
 
 /// What dims a light where something stands in between.
@@ -45,8 +45,8 @@ pub(crate) enum Dimming {
 /// A light made ready for shading: relative to the picture's origin, in single precision.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lamp {
-    emitter: Emitter,
-    power: Rgb,
+    pub(crate) emitter: Emitter,
+    pub(crate) power: Rgb,
     pub(crate) dimming: Dimming,
 }
 

@@ -22,6 +22,8 @@ use glam::DVec3;
 use std::fmt;
 use std::sync::Arc;
 
+pub mod plan;
+
 /// The part of half a ray's share of its pixel that a surface may be missed by. The default precision is coarser than
 /// that at all but the smallest sizes.
 const FOOTPRINT_SHARE: f64 = 1.0 / 16.0;

@@ -37,13 +37,13 @@ pub enum CameraError {
 /// A camera and a picture's size, made ready for casting rays.
 #[derive(Clone, Debug)]
 pub(crate) struct View {
-    eye: DVec3,
-    right: DVec3,
-    up: DVec3,
-    forward: DVec3,
+    pub(crate) eye: DVec3,
+    pub(crate) right: DVec3,
+    pub(crate) up: DVec3,
+    pub(crate) forward: DVec3,
     /// Half the picture's extent: on the plane at distance 1 for a perspective, in the world otherwise.
-    half: DVec2,
-    is_perspective: bool,
+    pub(crate) half: DVec2,
+    pub(crate) is_perspective: bool,
     size: DVec2,
 }
 
