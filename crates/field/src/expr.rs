@@ -111,6 +111,11 @@ impl Graph {
         self.term(Term::Input(index))
     }
 
+    /// A number by its place among the terms.
+    pub fn at(&self, id: u32) -> Expr<'_> {
+        Expr { graph: self, id }
+    }
+
     /// All terms in the order of evaluation.
     pub fn terms(&self) -> Vec<Term> {
         self.terms.borrow().clone()

@@ -1,0 +1,372 @@
+//! One function for each function of shapes that a scene uses, and one for its derivatives: written once, with the constants
+//! as arguments.
+
+use crate::formula::statements;
+use crate::names::Names;
+use crate::tree::{Expr, Function, Statement, Type};
+use freikugel_field::expr::{self, Graph, Slots};
+use freikugel_field::formula::{Binary, Unary};
+use freikugel_field::{Constants, Dual, Kind, ParamKind, Shape};
+use std::collections::HashMap;
+use std::ops::Range;
+
+/// With more constants than this a function gets the place of the first one instead.
+const MOST_ARGUMENTS: usize = 10;
+
+/// The functions written so far.
+pub(crate) struct Helpers {
+    pub(crate) names: Names,
+    pub(crate) functions: Vec<Function>,
+    known: HashMap<String, String>,
+}
+
+/// What is wanted of a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Want {
+    /// Its value.
+    Value,
+    /// Its gradient, and its value as a fourth component.
+    Gradient,
+}
+
+/// How constants come into a function.
+enum Passing {
+    Each(Vec<String>),
+    First,
+}
+
+impl Helpers {
+    pub(crate) fn new(names: Names) -> Self {
+        Self { names, functions: Vec::new(), known: HashMap::new() }
+    }
+
+    /// The function that was defined under a key.
+    pub(crate) fn known(&self, key: &str) -> Option<String> {
+        self.known.get(key).cloned()
+    }
+
+    /// Notes what a function was defined under.
+    pub(crate) fn remember(&mut self, key: String, name: &str) {
+        self.known.insert(key, name.to_owned());
+    }
+
+    /// A call of a primitive at a point.
+    pub(crate) fn primitive(&mut self, want: Want, shape: &'static Shape, at: Expr, constants: Range<usize>) -> Expr {
+        let Kind::Primitive(table) = &shape.kind else { unreachable!("a primitive") };
+        let record = |graph: &Graph, count: usize| {
+            let point: [expr::Expr<'_>; 3] = graph.point();
+            (table.kernels.expr)(point.into(), &Constants::new(point[0], &Slots(0), count)).id()
+        };
+        let arguments = vec![("p", Type::Vector(3), at)];
+        let inputs: Vec<Expr> = ["x", "y", "z"].map(|axis| Expr::name("p").member(axis)).into();
+        self.call(want, shape, arguments, &inputs, constants, &record, |d| match d {
+            [x, y, z] => [x.clone(), y.clone(), z.clone()].into(),
+            _ => unreachable!("three derivatives"),
+        })
+    }
+
+    /// A combination of two values, or of two values with their gradients.
+    pub(crate) fn combine(
+        &mut self,
+        want: Want,
+        shape: &'static Shape,
+        [a, b]: [Expr; 2],
+        constants: Range<usize>,
+    ) -> Expr {
+        let Kind::Combine(table) = &shape.kind else { unreachable!("a combination") };
+        if table.is_minimum {
+            return Expr::call(if want == Want::Value { "min" } else { "nearer" }, [a, b]);
+        }
+        let record = |graph: &Graph, count: usize| {
+            let [a, b] = [0, 1].map(|input| graph.input(input));
+            (table.kernels.expr)(a, b, &Constants::new(a, &Slots(0), count)).id()
+        };
+        self.of_values(want, shape, &[a, b], constants, &record)
+    }
+
+    /// The share of the second value in a combination of two.
+    pub(crate) fn share(&mut self, shape: &'static Shape, [a, b]: [Expr; 2], constants: Range<usize>) -> Expr {
+        let Kind::Combine(table) = &shape.kind else { unreachable!("a combination") };
+        let (passing, key) = self.passing(shape, constants.len(), "share");
+        let name = match self.known.get(&key) {
+            Some(name) => name.clone(),
+            None => {
+                let graph = Graph::new();
+                let [x, y] = [0, 1].map(|input| graph.input(input));
+                let share = (table.share)(x, y, &Constants::new(x, &Slots(0), constants.len()));
+                let inputs = ["a", "b"].map(Expr::name);
+                let (mut body, mut results) = statements(&graph, &[share], &inputs, &|slot| passing.slot(slot));
+                body.push(Statement::Return(results.remove(0)));
+                let values = vec![("a", Type::Float), ("b", Type::Float)];
+                self.define(key, values, &passing, Type::Float, body, Vec::new())
+            }
+        };
+        Expr::Call(name, passing.arguments(vec![a, b], constants))
+    }
+
+    /// A change of a value, or of a value with its gradient.
+    pub(crate) fn modify(&mut self, want: Want, shape: &'static Shape, from: Expr, constants: Range<usize>) -> Expr {
+        let Kind::Modify(table) = &shape.kind else { unreachable!("a change of values") };
+        let record = |graph: &Graph, count: usize| {
+            let value = graph.input(0);
+            (table.kernels.expr)(value, &Constants::new(value, &Slots(0), count)).id()
+        };
+        self.of_values(want, shape, &[from], constants, &record)
+    }
+
+    /// A function of one value outside of formulas.
+    pub(crate) fn unary(&mut self, want: Want, op: Unary, a: Expr) -> Expr {
+        let record = |graph: &Graph| op.apply(graph.input(0)).id();
+        self.operation(want, &format!("{op:?}"), &[a], &record)
+    }
+
+    /// A function of two values outside of formulas.
+    pub(crate) fn binary(&mut self, want: Want, op: Binary, [a, b]: [Expr; 2]) -> Expr {
+        let record = |graph: &Graph| op.apply(graph.input(0), graph.input(1)).id();
+        self.operation(want, &format!("{op:?}"), &[a, b], &record)
+    }
+
+    fn operation(&mut self, want: Want, op: &str, values: &[Expr], record: &dyn Fn(&Graph) -> u32) -> Expr {
+        if want == Want::Value {
+            // Written where it is needed.
+            let graph = Graph::new();
+            record(&graph);
+            let last = graph.terms().len() - 1;
+            let result = graph.at(last as u32);
+            let (body, mut results) = statements(&graph, &[result], values, &|_| unreachable!("no constants"));
+            if body.is_empty() {
+                return results.remove(0);
+            }
+        }
+        let key = match want {
+            Want::Value => format!("{op}_value"),
+            Want::Gradient => format!("{op}_gradient"),
+        };
+        let passing = Passing::Each(Vec::new());
+        let name = match self.known.get(&key) {
+            Some(name) => name.clone(),
+            None => self.value_function(want, key, values.len(), &passing, &|graph, _| record(graph), 0),
+        };
+        Expr::Call(name, values.to_vec())
+    }
+
+    fn of_values(
+        &mut self,
+        want: Want,
+        shape: &'static Shape,
+        values: &[Expr],
+        constants: Range<usize>,
+        record: &dyn Fn(&Graph, usize) -> u32,
+    ) -> Expr {
+        let (passing, key) = self.passing(shape, constants.len(), want.suffix());
+        let name = match self.known.get(&key) {
+            Some(name) => name.clone(),
+            None => self.value_function(want, key, values.len(), &passing, record, constants.len()),
+        };
+        Expr::Call(name, passing.arguments(values.to_vec(), constants))
+    }
+
+    /// Defines a function of one or two values.
+    fn value_function(
+        &mut self,
+        want: Want,
+        key: String,
+        count: usize,
+        passing: &Passing,
+        record: &dyn Fn(&Graph, usize) -> u32,
+        constants: usize,
+    ) -> String {
+        let graph = Graph::new();
+        // Inputs come first, so that they are there even if nothing reads them.
+        let _ = [0, 1].map(|input| graph.input(input));
+        let result = graph.at(record(&graph, constants));
+        let letters = &["a", "b"][..count];
+        let slot = |slot| passing.slot(slot);
+        match want {
+            Want::Value => {
+                let inputs: Vec<Expr> = letters.iter().map(|&letter| Expr::name(letter)).collect();
+                let (mut body, mut results) = statements(&graph, &[result], &inputs, &slot);
+                body.push(Statement::Return(results.remove(0)));
+                let values = letters.iter().map(|&letter| (letter, Type::Float)).collect();
+                self.define(key, values, passing, Type::Float, body, Vec::new())
+            }
+            Want::Gradient => {
+                let inputs: Vec<Expr> = letters.iter().map(|&letter| Expr::name(letter).member("w")).collect();
+                let derivatives = Graph::new();
+                let dual: Dual<expr::Expr<'_>, 2> = graph.differentiate(&[result], &derivatives).remove(0);
+                let wanted: Vec<expr::Expr<'_>> =
+                    dual.gradient[..count].iter().copied().chain([dual.value]).collect();
+                let (mut body, mut results) = statements(&derivatives, &wanted, &inputs, &slot);
+                let value = results.pop().expect("the value was wanted");
+                let sum = letters.iter().zip(results).filter_map(|(&letter, by)| {
+                    let gradient = Expr::name(letter).member("xyz");
+                    match by {
+                        Expr::Float(0.0) => None,
+                        Expr::Float(1.0) => Some(gradient),
+                        Expr::Float(-1.0) => Some(Expr::Negate(Box::new(gradient))),
+                        by => Some(by * gradient),
+                    }
+                });
+                let zero = || Expr::Make(Type::Vector(3), vec![Expr::Float(0.0)]);
+                let gradient = sum.reduce(|a, b| a + b).unwrap_or_else(zero);
+                body.push(Statement::Return(Expr::Make(Type::Vector(4), vec![gradient, value])));
+                let values = letters.iter().map(|&letter| (letter, Type::Vector(4))).collect();
+                self.define(key, values, passing, Type::Vector(4), body, Vec::new())
+            }
+        }
+    }
+
+    #[allow(clippy::too_many_arguments, reason = "one for each thing that differs")]
+    fn call(
+        &mut self,
+        want: Want,
+        shape: &'static Shape,
+        arguments: Vec<(&'static str, Type, Expr)>,
+        inputs: &[Expr],
+        constants: Range<usize>,
+        record: &dyn Fn(&Graph, usize) -> u32,
+        gradient: impl Fn(&[Expr]) -> Vec<Expr>,
+    ) -> Expr {
+        let (passing, key) = self.passing(shape, constants.len(), want.suffix());
+        let name = match self.known.get(&key) {
+            Some(name) => name.clone(),
+            None => {
+                let graph = Graph::new();
+                let _ = graph.point();
+                let result = graph.at(record(&graph, constants.len()));
+                let values = arguments.iter().map(|(name, ty, _)| (*name, ty.clone())).collect();
+                let (ty, body, comment) = match want {
+                    Want::Value => {
+                        let (mut body, mut results) =
+                            statements(&graph, &[result], inputs, &|slot| passing.slot(slot));
+                        body.push(Statement::Return(results.remove(0)));
+                        (Type::Float, body, vec![shape.about.summary.to_owned()])
+                    }
+                    Want::Gradient => {
+                        let (body, results) = dual_statements(&graph, result, inputs, &|slot| passing.slot(slot));
+                        let (value, by) = results.split_last().expect("a value");
+                        let mut parts = gradient(by);
+                        parts.push(value.clone());
+                        let mut body = body;
+                        body.push(Statement::Return(Expr::vector(parts)));
+                        (Type::Vector(4), body, Vec::new())
+                    }
+                };
+                self.define(key, values, &passing, ty, body, comment)
+            }
+        };
+        let values = arguments.into_iter().map(|(.., value)| value).collect();
+        Expr::Call(name, passing.arguments(values, constants))
+    }
+
+    fn define(
+        &mut self,
+        key: String,
+        values: Vec<(&str, Type)>,
+        passing: &Passing,
+        result: Type,
+        body: Vec<Statement>,
+        comment: Vec<String>,
+    ) -> String {
+        let name = self.names.make(&key);
+        let mut arguments: Vec<(String, Type)> = values.into_iter().map(|(name, ty)| (name.into(), ty)).collect();
+        match passing {
+            Passing::Each(names) => arguments.extend(names.iter().map(|name| (name.clone(), Type::Float))),
+            Passing::First => arguments.push(("first".into(), Type::Int)),
+        }
+        self.functions.push(Function { name: name.clone(), comment, arguments, result, body });
+        self.known.insert(key, name.clone());
+        name
+    }
+
+    /// How a shape's constants are passed, and what tells its functions apart: lists have any number of constants.
+    fn passing(&self, shape: &'static Shape, count: usize, suffix: &str) -> (Passing, String) {
+        let name = shape.about.name;
+        let names = constant_names(shape, count);
+        let key = if suffix.is_empty() { name.to_owned() } else { format!("{name}_{suffix}") };
+        match count {
+            0..=MOST_ARGUMENTS => (Passing::Each(names), key),
+            _ => (Passing::First, format!("{key}_{count}")),
+        }
+    }
+}
+
+/// Statements for a number and its derivatives by three inputs: the derivatives, then the number.
+pub(crate) fn dual_statements(
+    graph: &Graph,
+    result: expr::Expr<'_>,
+    inputs: &[Expr],
+    slot: &dyn Fn(usize) -> Expr,
+) -> (Vec<Statement>, Vec<Expr>) {
+    let derivatives = Graph::new();
+    let dual: Dual<expr::Expr<'_>, 3> = graph.differentiate(&[result], &derivatives).remove(0);
+    let [x, y, z] = dual.gradient;
+    statements(&derivatives, &[x, y, z, dual.value], inputs, slot)
+}
+
+impl Want {
+    pub(crate) fn suffix(self) -> &'static str {
+        match self {
+            Self::Value => "",
+            Self::Gradient => "gradient",
+        }
+    }
+}
+
+impl Passing {
+    fn slot(&self, slot: usize) -> Expr {
+        match self {
+            Self::Each(names) => Expr::name(&*names[slot]),
+            Self::First => Expr::Parameter(Box::new(Expr::name("first") + Expr::Int(slot as i64))),
+        }
+    }
+
+    fn arguments(&self, mut values: Vec<Expr>, constants: Range<usize>) -> Vec<Expr> {
+        match self {
+            Self::Each(_) => values.extend(constants.map(Expr::parameter)),
+            Self::First => values.push(Expr::Int(constants.start as i64)),
+        }
+        values
+    }
+}
+
+/// Names of a shape's constants: those of the parameters that they are or are half of, as a sample of arguments shows.
+fn constant_names(shape: &Shape, count: usize) -> Vec<String> {
+    let prepare = match &shape.kind {
+        Kind::Primitive(table) => table.prepare,
+        Kind::Combine(table) => table.prepare,
+        Kind::Modify(table) => table.prepare,
+        _ => |args: &[f64]| args.to_vec(),
+    };
+    let mut sample = Vec::new();
+    let mut labels = Vec::new();
+    for param in shape.about.params {
+        let width = param.kind.width();
+        for place in 0..width {
+            // Numbers that no computation yields by accident.
+            sample.push(match param.kind {
+                ParamKind::Count(least, _) => f64::from(least),
+                ParamKind::Choice(_) | ParamKind::Flag => 0.0,
+                _ => 0.711 + 0.0137 * sample.len() as f64,
+            });
+            let letter = if width == 1 { "" } else { ["_x", "_y", "_z", "_w"][place] };
+            labels.push(format!("{}{letter}", param.name));
+        }
+    }
+    let is_list = shape.about.params.iter().any(|param| param.kind.is_list());
+    let constants = if is_list || shape.about.params.is_empty() { Vec::new() } else { prepare(&sample) };
+    let mut names = Names::new();
+    ["p", "a", "b", "first"].into_iter().for_each(|name| names.take(name));
+    let name = |place: usize| {
+        let known = (constants.len() == count).then(|| constants[place]);
+        let find = |factor: f64| {
+            known.and_then(|own| sample.iter().position(|number| number * factor == own && own != 0.0))
+        };
+        match (find(1.0), find(0.5)) {
+            (Some(at), _) => labels[at].clone(),
+            (_, Some(at)) => format!("half_{}", labels[at]),
+            _ => format!("c{place}"),
+        }
+    };
+    (0..count).map(|place| names.make(&name(place))).collect()
+}

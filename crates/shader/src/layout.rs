@@ -1,0 +1,140 @@
+//! Where the numbers of a scene are in the table of parameters.
+//!
+//! First come numbers that every scene has, at places that are the same for all; then the boxes of parts and groups, planes,
+//! the materials of regions, and the constants of the parts' functions; last the lights, since their number may change.
+
+use crate::tree::{Expr, Item, Type};
+
+/// What every scene has, with how many numbers.
+const HEADER: &[(&str, usize)] = &[
+    ("EYE", 3),
+    ("RIGHT", 3),
+    ("UP", 3),
+    ("FORWARD", 3),
+    ("TARGET", 3),
+    ("HALF", 1),
+    ("IS_HORIZONTAL", 1),
+    ("IS_PERSPECTIVE", 1),
+    ("FOOTPRINT", 2),
+    ("TOLERANCE", 4),
+    ("SCALE", 1),
+    ("STEP_FACTOR", 1),
+    ("MAX_STEPS", 1),
+    ("MAX_DISTANCE", 1),
+    ("BOUNDS", 6),
+    ("AMBIENT", 6),
+    ("BACKGROUND", 6),
+    ("OCCLUSION", 10),
+    ("GAIN", 1),
+    ("SCALES_DOWN", 1),
+    ("WARNING", 4),
+    ("SCENE_SIZE", 1),
+    ("LIGHT_COUNT", 1),
+];
+
+/// Numbers of a part: the middle of its box and half its edges, what its values are multiplied with for steps, and how much
+/// its box is larger than needed.
+pub(crate) const PART_SIZE: usize = 8;
+/// Numbers of a group of parts: the middle of its box and half its edges.
+pub(crate) const GROUP_SIZE: usize = 6;
+/// Numbers of a plane: normal, offset, whether it is a sheet, and the slope of its field.
+pub(crate) const PLANE_SIZE: usize = 6;
+/// Numbers of a region: two colours, the size of the pattern (0 for none) and its phase, emitted light, shares of ambient,
+/// diffuse and specular light, exponent, whether the model is Blinn's, the object, a spare one, whether it is a sheet.
+pub(crate) const REGION_SIZE: usize = 21;
+/// Numbers of a light: kind, place, power, falloff, whether it has a cone, its axis and two cosines, the kind of shadow and
+/// its measure.
+pub(crate) const LIGHT_SIZE: usize = 18;
+
+/// How many parts share a box.
+pub(crate) const GROUP: usize = 8;
+/// With fewer parts, groups would not pay.
+const FEWEST_GROUPED: usize = 2 * GROUP;
+
+/// Places of everything whose number depends on the scene.
+#[derive(Clone, Debug)]
+pub(crate) struct Layout {
+    pub(crate) parts: usize,
+    pub(crate) part_count: usize,
+    pub(crate) groups: usize,
+    pub(crate) group_count: usize,
+    pub(crate) planes: usize,
+    pub(crate) plane_count: usize,
+    pub(crate) regions: usize,
+    pub(crate) region_count: usize,
+    pub(crate) constants: usize,
+    pub(crate) lights: usize,
+}
+
+impl Layout {
+    pub(crate) fn new(part_count: usize, plane_count: usize, region_count: usize, constant_count: usize) -> Self {
+        let parts: usize = HEADER.iter().map(|(_, count)| count).sum();
+        let groups = parts + PART_SIZE * part_count;
+        let group_count = if part_count < FEWEST_GROUPED { 0 } else { part_count.div_ceil(GROUP) };
+        let planes = groups + GROUP_SIZE * group_count;
+        let regions = planes + PLANE_SIZE * plane_count;
+        // Aligned, so that vectors of four hold what belongs together more often.
+        let constants = (regions + REGION_SIZE * region_count).next_multiple_of(4);
+        let lights = (constants + constant_count).next_multiple_of(4);
+        Self {
+            parts,
+            part_count,
+            groups,
+            group_count,
+            planes,
+            plane_count,
+            regions,
+            region_count,
+            constants,
+            lights,
+        }
+    }
+
+    /// The places and sizes as constants of the module.
+    pub(crate) fn items(&self) -> Vec<Item> {
+        let mut place = 0;
+        let mut places: Vec<(&str, usize)> = Vec::new();
+        for &(name, count) in HEADER {
+            places.push((name, place));
+            place += count;
+        }
+        places.extend([
+            ("PARTS", self.parts),
+            ("PART_SIZE", PART_SIZE),
+            ("PART_COUNT", self.part_count),
+            ("PLANES", self.planes),
+            ("PLANE_SIZE", PLANE_SIZE),
+            ("PLANE_COUNT", self.plane_count),
+            ("REGIONS", self.regions),
+            ("REGION_SIZE", REGION_SIZE),
+            ("LIGHTS", self.lights),
+            ("LIGHT_SIZE", LIGHT_SIZE),
+        ]);
+        let constant = |(index, (name, place)): (usize, (&str, usize))| {
+            let comment = if index == 0 { vec!["Places in the table of parameters, and counts.".to_owned()] } else { Vec::new() };
+            Item::Constant(name.into(), Type::Int, Expr::Int(place as i64), comment)
+        };
+        places.into_iter().enumerate().map(constant).collect()
+    }
+
+    /// Writes numbers of the header.
+    pub(crate) fn set(table: &mut [f32], name: &str, numbers: &[f64]) {
+        let mut place = 0;
+        for &(own, count) in HEADER {
+            if own == name {
+                assert_eq!(count, numbers.len(), "{name} has {count} numbers");
+                write(&mut table[place..place + count], numbers);
+                return;
+            }
+            place += count;
+        }
+        panic!("no number is called {name}");
+    }
+}
+
+/// Writes numbers in single precision.
+pub(crate) fn write(to: &mut [f32], numbers: &[f64]) {
+    for (to, number) in to.iter_mut().zip(numbers) {
+        *to = *number as f32;
+    }
+}

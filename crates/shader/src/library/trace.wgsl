@@ -1,0 +1,164 @@
+// A hit is a false one if by its gradient the surface is still this many tolerances away.
+const FALSE_HIT: f32 = 2.0;
+
+// The least gradient a surface is expected to have.
+const FLATTEST: f32 = 0.001;
+
+// A ray that ran out of steps shows the surface it is creeping along if that is nearer than this many tolerances.
+const CREEPING: f32 = 64.0;
+
+// How much farther than the free distance a step goes at first; it is taken back where it might have passed a surface.
+const RELAXATION: f32 = 1.2;
+
+// How often a march goes on after a false hit.
+const MOST_MARCHES: i32 = 3;
+
+// What a ray met.
+struct Hit {
+    // The distance from the ray's origin; FAR if it met nothing.
+    distance: f32,
+    part: i32,
+    steps: i32,
+    is_unresolved: bool,
+    position: vec3<f32>,
+    normal: vec3<f32>,
+    viewer: vec3<f32>,
+    // How far the position may be from the surface, and what errors of position are tolerated there.
+    uncertainty: f32,
+    tolerance: f32,
+    // How fast the marched field grows away from the surface.
+    slope: f32,
+}
+
+// Where a ray meets a plane that objects end at: a half-space, or a sheet; FAR if it does not.
+fn plane_hit(ray: Ray, first: i32) -> f32 {
+    let height: f32 = dot(triple(first), ray.origin) - parameters[first + 3];
+    let descent: f32 = -dot(triple(first), ray.direction);
+    if (parameters[first + 4] > 0.0) {
+        let t: f32 = height / away_from_zero(descent);
+        return select(FAR, t, t >= 0.0 && abs(descent) > 1e-20);
+    }
+    if (height <= 0.0) {
+        return 0.0;
+    }
+    return select(FAR, height / away_from_zero(descent), descent > 1e-20);
+}
+
+// The value of a plane's object, and the plane's number.
+fn plane_value(p: vec3<f32>, first: i32) -> f32 {
+    let height: f32 = (dot(triple(first), p) - parameters[first + 3]) * parameters[first + 5];
+    return select(height, abs(height), parameters[first + 4] > 0.0);
+}
+
+// The plane nearest to a point, if it is nearer than what is so far.
+fn nearest_plane(so_far: vec2<f32>, p: vec3<f32>) -> vec2<f32> {
+    var d: vec2<f32> = so_far;
+    for (var i: i32 = 0; i < PLANE_COUNT; i++) {
+        d = closer(d, plane_value(p, PLANES + PLANE_SIZE * i), f32(PART_COUNT + i));
+    }
+    return d;
+}
+
+// Whether two numbered parts are seen from both sides.
+fn is_sheet(part: i32) -> bool {
+    return parameters[REGIONS + REGION_SIZE * part + 20] > 0.0;
+}
+
+fn facing(normal: vec3<f32>, viewer: vec3<f32>, part: i32) -> vec3<f32> {
+    return select(normal, -normal, is_sheet(part) && dot(normal, viewer) < 0.0);
+}
+
+// The first surface on a ray.
+fn trace(ray: Ray) -> Hit {
+    var plane_at: f32 = FAR;
+    var plane: i32 = -1;
+    for (var i: i32 = 0; i < PLANE_COUNT; i++) {
+        let t_plane: f32 = plane_hit(ray, PLANES + PLANE_SIZE * i);
+        if (t_plane < plane_at) {
+            plane_at = t_plane;
+            plane = i;
+        }
+    }
+    let span: vec2<f32> = clip(ray);
+    let end: f32 = min(span.y, min(plane_at, parameters[MAX_DISTANCE]));
+    let scale: f32 = parameters[SCALE];
+    var t: f32 = span.x;
+    var steps: i32 = 0;
+    var part: i32 = -1;
+    var is_unresolved: bool = false;
+    var gradient: vec4<f32> = vec4<f32>(0.0);
+    // The field value that counts as a hit, in tolerances.
+    var fineness: f32 = 1.0 / scale;
+    for (var marches: i32 = 0; marches < MOST_MARCHES; marches++) {
+        if (t >= end) {
+            break;
+        }
+        var reach: f32 = 0.0;
+        var near: vec2<f32> = vec2<f32>(FAR, -1.0);
+        // The free distance at the point before, and how far the step from there went.
+        var before: f32 = 0.0;
+        var stride: f32 = 0.0;
+        var is_near: bool = false;
+        loop {
+            let p: vec3<f32> = ray.origin + t * ray.direction;
+            near = nearest(p);
+            reach = tolerance_at(t, length(p));
+            let free: f32 = near.x * scale * parameters[STEP_FACTOR];
+            if (stride > before + max(free, 0.0) && stride > 0.0) {
+                t = t - stride + before;
+                stride = before;
+                steps += 1;
+                continue;
+            }
+            is_near = near.x < max(reach * fineness, ROUNDING * length(p));
+            if (is_near || steps >= i32(parameters[MAX_STEPS])) {
+                break;
+            }
+            before = free;
+            stride = select(free, free * RELAXATION, t + free * RELAXATION < end);
+            t += stride;
+            steps += 1;
+            if (t >= end) {
+                break;
+            }
+        }
+        if (t >= end && !is_near) {
+            break;
+        }
+        is_unresolved = !is_near;
+        if (is_unresolved && near.x >= CREEPING * reach * fineness) {
+            break;
+        }
+        part = i32(near.y);
+        gradient = part_gradient(part, ray.origin + t * ray.direction);
+        let slope: f32 = max(length(gradient.xyz) * parameters[PARTS + PART_SIZE * part + 6], FLATTEST);
+        // Rounding errors of values do not shrink with the slope.
+        let least: f32 = ROUNDING * (length(ray.origin) + t);
+        let is_false: bool = near.x > FALSE_HIT * reach * slope && near.x > least;
+        if (!is_false || is_unresolved || marches + 1 == MOST_MARCHES) {
+            break;
+        }
+        fineness = slope;
+        part = -1;
+    }
+    let viewer: vec3<f32> = -ray.direction;
+    if (part >= 0) {
+        let position: vec3<f32> = ray.origin + t * ray.direction;
+        let steepness: f32 = length(gradient.xyz);
+        let normal: vec3<f32> = select(viewer, gradient.xyz / max(steepness, 1e-30), steepness > 0.0);
+        let away: f32 = tolerance_at(t, length(position));
+        let slope: f32 = clamp(steepness * parameters[PARTS + PART_SIZE * part + 6], FLATTEST, 1.0);
+        let facing_normal: vec3<f32> = facing(normal, viewer, part);
+        return Hit(t, part, steps, is_unresolved, position, facing_normal, viewer, away, away, slope);
+    }
+    if (plane >= 0) {
+        let position: vec3<f32> = ray.origin + plane_at * ray.direction;
+        let number: i32 = PART_COUNT + plane;
+        let normal: vec3<f32> = facing(triple(PLANES + PLANE_SIZE * plane), viewer, number);
+        let offset: f32 = length(position);
+        let away: f32 = ROUNDING * max(offset, plane_at);
+        let tolerance: f32 = tolerance_at(plane_at, offset);
+        return Hit(plane_at, number, steps, is_unresolved, position, normal, viewer, away, tolerance, 1.0 / scale);
+    }
+    return Hit(FAR, -1, steps, is_unresolved, ray.origin, vec3<f32>(0.0), viewer, 0.0, 0.0, 1.0);
+}

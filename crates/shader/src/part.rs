@@ -1,0 +1,463 @@
+//! The parts a scene is made of: objects, and what unions at the top of objects hold. Each becomes one function.
+//!
+//! Parts are tried one after another for the nearest, so that those far away can be passed over by their boxes.
+
+use crate::helpers::{Helpers, Want, dual_statements};
+use crate::formula::statements;
+use crate::names::Names;
+use crate::tree::{Expr, Function, Statement, Type};
+use freikugel_field::expr::{self, Graph, Slots};
+use freikugel_field::{Action, Field, Kind, MaterialId, Outline, Scalar, Structure};
+use freikugel_field::field::Origin;
+use freikugel_field::formula::Binary;
+use freikugel_field::shapes;
+use std::collections::HashMap;
+
+/// A field of its own among those of a scene.
+#[derive(Clone, Debug)]
+pub(crate) struct Source {
+    /// The object it belongs to.
+    pub(crate) object: usize,
+    /// What it is called.
+    pub(crate) name: String,
+    pub(crate) field: Field,
+}
+
+/// The parts of one object.
+pub(crate) fn sources(object: usize, name: &str, field: &Field) -> Vec<Source> {
+    let mut found = Vec::new();
+    split(field, None, &mut found);
+    let is_whole = found.len() == 1;
+    let named = |(index, field): (usize, Field)| {
+        let name = if is_whole { name.to_owned() } else { format!("{name} {}", index + 1) };
+        Source { object, name, field }
+    };
+    found.into_iter().enumerate().map(named).collect()
+}
+
+/// Takes unions apart that nothing but paint lies above.
+fn split(field: &Field, paint: Option<MaterialId>, found: &mut Vec<Field>) {
+    let node = field.node();
+    match &node.shape.kind {
+        Kind::Combine(table) if table.is_minimum => {
+            node.children.iter().for_each(|child| split(child, paint, found));
+        }
+        // The innermost paint holds.
+        Kind::Paint => split(&node.children[0], node.material.or(paint), found),
+        _ => found.push(match paint {
+            Some(material) => {
+                let origin: Origin = node.origin;
+                Field::with_origin(&shapes::PAINT, [], [field.clone()], Some(material), origin)
+            }
+            None => field.clone(),
+        }),
+    }
+}
+
+/// A part whose functions are to be written.
+pub(crate) struct Part {
+    pub(crate) source: Source,
+    pub(crate) structure: Structure,
+    pub(crate) outline: Outline,
+    /// Where its constants begin in the table of parameters.
+    pub(crate) base: usize,
+    /// Where its regions are among those of the scene.
+    pub(crate) regions: Vec<usize>,
+    /// Whether it needs a slope to be marched.
+    pub(crate) is_measured: bool,
+}
+
+/// Costs of steps, in simple operations.
+const COST_OF_PRIMITIVE: usize = 12;
+const COST_OF_COMBINATION: usize = 3;
+
+impl Part {
+    /// About how many simple operations it takes.
+    pub(crate) fn cost(&self) -> usize {
+        let loops = |shape: &freikugel_field::Shape, count: usize| match &shape.kind {
+            Kind::Primitive(table) => {
+                let graph = Graph::new();
+                let point = graph.point();
+                (table.kernels.expr)(point.into(), &freikugel_field::Constants::new(point[0], &Slots(0), count));
+                // Few loops run to their limit.
+                graph.terms().len() * (1 + 4 * graph.loops().len())
+            }
+            _ => COST_OF_PRIMITIVE,
+        };
+        let cost = |action: &Action| match action {
+            Action::Primitive { shape, constants, .. } => loops(shape, constants.len()),
+            Action::Affine { .. } => COST_OF_PRIMITIVE,
+            _ => COST_OF_COMBINATION,
+        };
+        self.outline.steps.iter().map(cost).sum()
+    }
+
+    /// Statements that compute its value, or value and gradient, at the point `p`, and the result.
+    pub(crate) fn value(&self, want: Want, name: &str, helpers: &mut Helpers) -> (Vec<Statement>, Expr) {
+        let mut walk = Walk::new(self, want, name, helpers);
+        walk.all();
+        let result = self.outline.result.expect("a part is something");
+        let value = walk.values[result].clone().expect("every step has a value");
+        let mut body = walk.body;
+        match body.as_slice() {
+            [Statement::Let(name, _, only)] if value == Expr::name(&**name) => {
+                let only = only.clone();
+                body.clear();
+                (body, only)
+            }
+            _ => (body, value),
+        }
+    }
+
+    /// Statements that compute the shares of its regions at the point `p`, and one for each region.
+    pub(crate) fn shares(&self, name: &str, helpers: &mut Helpers) -> (Vec<Statement>, Vec<Expr>) {
+        let mut walk = Walk::new(self, Want::Value, name, helpers);
+        walk.all();
+        walk.shares()
+    }
+}
+
+struct Walk<'a> {
+    part: &'a Part,
+    want: Want,
+    name: &'a str,
+    helpers: &'a mut Helpers,
+    body: Vec<Statement>,
+    /// The points and values of steps.
+    points: Vec<Option<Expr>>,
+    values: Vec<Option<Expr>>,
+    /// For each point other than the first one, the step it was made from, and the derivatives of the map.
+    maps: Vec<Option<(usize, Expr)>>,
+    /// Which steps are terms of formulas, and how often each step is read by others.
+    is_formula: Vec<bool>,
+    reads: Vec<usize>,
+    local: Names,
+    numbers: HashMap<String, usize>,
+}
+
+impl<'a> Walk<'a> {
+    fn new(part: &'a Part, want: Want, name: &'a str, helpers: &'a mut Helpers) -> Self {
+        let steps = &part.outline.steps;
+        let mut is_formula: Vec<bool> = Vec::with_capacity(steps.len());
+        let mut reads = vec![0; steps.len()];
+        for action in steps {
+            is_formula.push(match *action {
+                Action::Coordinate { .. } | Action::Literal { .. } => true,
+                Action::Unary { from, .. } | Action::Power { from, .. } => is_formula[from],
+                Action::Binary { a, b, .. } => is_formula[a] && is_formula[b],
+                _ => false,
+            });
+            // Only points are counted: those that several steps read get a name.
+            match *action {
+                Action::Primitive { point, .. } | Action::Affine { from: point, .. } => reads[point] += 1,
+                Action::Coordinate { point, .. } => reads[point] += 1,
+                _ => {}
+            }
+        }
+        let count = steps.len();
+        let local = helpers.names.clone();
+        Self {
+            part,
+            want,
+            name,
+            helpers,
+            body: Vec::new(),
+            points: vec![None; count],
+            values: vec![None; count],
+            maps: vec![None; count],
+            is_formula,
+            reads,
+            local,
+            numbers: HashMap::new(),
+        }
+    }
+
+    fn all(&mut self) {
+        for index in 0..self.part.outline.steps.len() {
+            self.step(index);
+        }
+    }
+
+    fn ty(&self) -> Type {
+        match self.want {
+            Want::Value => Type::Float,
+            Want::Gradient => Type::Vector(4),
+        }
+    }
+
+    fn place(&self, constant: usize) -> usize {
+        self.part.base + constant
+    }
+
+    /// Gives a value a name made of a word and a number.
+    fn bind(&mut self, word: &str, ty: Type, value: Expr) -> Expr {
+        let number = self.numbers.entry(word.to_owned()).or_insert(0);
+        *number += 1;
+        let name = self.local.make(&format!("{word}{number}"));
+        self.body.push(Statement::Let(name.clone(), ty, value));
+        Expr::Name(name)
+    }
+
+    fn read(&mut self, step: usize) -> Expr {
+        if self.is_formula[step] && self.values[step].is_none() {
+            let value = self.formula(step);
+            self.values[step] = Some(value);
+        }
+        self.values[step].clone().expect("operands come before what reads them")
+    }
+
+    fn point(&self, step: usize) -> Expr {
+        self.points[step].clone().expect("points come before what reads them")
+    }
+
+    /// A point less three constants.
+    fn moved(&self, point: usize, at: usize) -> Expr {
+        self.point(point) - triple(self.place(at))
+    }
+
+    /// A value with its gradient by the coordinates of `point`, seen from the first point.
+    fn seen(&self, mut value: Expr, mut point: usize) -> Expr {
+        if self.want == Want::Gradient {
+            while let Some((from, map)) = &self.maps[point] {
+                value = Expr::call("turned", [value, map.clone()]);
+                point = *from;
+            }
+        }
+        value
+    }
+
+    fn step(&mut self, index: usize) {
+        if self.is_formula[index] {
+            return;
+        }
+        let shifted = |constants: &std::ops::Range<usize>, base: usize| base + constants.start..base + constants.end;
+        let (want, base) = (self.want, self.part.base);
+        let value = match &self.part.outline.steps[index] {
+            Action::Point => {
+                self.points[index] = Some(Expr::name("p"));
+                return;
+            }
+            &Action::Affine { from, constants } => {
+                let matrix = Expr::call("matrix", [Expr::Int(self.place(constants) as i64)]);
+                self.maps[index] = Some((from, matrix.clone()));
+                let point = matrix * self.point(from) + triple(self.place(constants + 9));
+                self.set_point(index, point);
+                return;
+            }
+            &Action::Warp { from } => {
+                self.warp(index, from);
+                return;
+            }
+            Action::Primitive { shape, point, at, constants, .. } => {
+                let at = self.moved(*point, *at);
+                let value = self.helpers.primitive(want, shape, at, shifted(constants, base));
+                let value = self.seen(value, *point);
+                self.bind(shape.about.name, self.ty(), value)
+            }
+            Action::Combine { shape, a, b, constants } => {
+                let values = [self.read(*a), self.read(*b)];
+                let value = self.helpers.combine(want, shape, values, shifted(constants, base));
+                self.bind(shape.about.name, self.ty(), value)
+            }
+            Action::Modify { shape, from, constants } => {
+                let from = self.read(*from);
+                let value = self.helpers.modify(want, shape, from, shifted(constants, base));
+                self.bind(shape.about.name, self.ty(), value)
+            }
+            &Action::Scale { from, factor } => {
+                let value = self.read(from) * Expr::parameter(self.place(factor));
+                self.bind("scaled", self.ty(), value)
+            }
+            &Action::Surface { from, .. } => self.read(from),
+            &Action::Altered { op, from, by } => {
+                let values = [self.read(from), self.read(by)];
+                let value = self.helpers.binary(want, op, values);
+                self.bind(if op == Binary::Max { "cut" } else { "altered" }, self.ty(), value)
+            }
+            &Action::Unary { op, from } => {
+                let from = self.read(from);
+                let value = self.helpers.unary(want, op, from);
+                self.bind(&format!("{op:?}").to_lowercase(), self.ty(), value)
+            }
+            &Action::Binary { op, a, b } => {
+                let values = [self.read(a), self.read(b)];
+                let value = self.helpers.binary(want, op, values);
+                self.bind(if op == Binary::Max { "cut" } else { "combined" }, self.ty(), value)
+            }
+            Action::Power { .. } | Action::Coordinate { .. } | Action::Literal { .. } => {
+                unreachable!("only formulas hold these")
+            }
+        };
+        self.values[index] = Some(value);
+    }
+
+    fn set_point(&mut self, index: usize, point: Expr) {
+        let point = if self.reads[index] > 1 { self.bind("q", Type::Vector(3), point) } else { point };
+        self.points[index] = Some(point);
+    }
+
+    /// The value of the formula that ends with a step.
+    fn formula(&mut self, root: usize) -> Expr {
+        let (point, at) = self.space(&[root]);
+        let graph = Graph::new();
+        let results = self.record(&graph, &[root]);
+        let inputs: Vec<Expr> = ["x", "y", "z"].map(|axis| Expr::name("p").member(axis)).into();
+        let base = self.part.base;
+        let slot = move |slot: usize| Expr::parameter(base + slot);
+        let (suffix, ty, body) = match self.want {
+            Want::Value => {
+                let (mut body, mut results) = statements(&graph, &results, &inputs, &slot);
+                body.push(Statement::Return(results.remove(0)));
+                ("formula", Type::Float, body)
+            }
+            Want::Gradient => {
+                let (mut body, results) = dual_statements(&graph, results[0], &inputs, &slot);
+                body.push(Statement::Return(Expr::vector(results)));
+                ("formula_gradient", Type::Vector(4), body)
+            }
+        };
+        let name = self.define(suffix, root, ty, body);
+        let point_value = match at {
+            Some(at) => self.moved(point, at),
+            None => self.point(point),
+        };
+        let value = self.seen(Expr::call(name, [point_value]), point);
+        self.bind("formula", self.ty(), value)
+    }
+
+    fn warp(&mut self, index: usize, from: [usize; 3]) {
+        let (point, at) = self.space(&from);
+        let graph = Graph::new();
+        let results = self.record(&graph, &from);
+        let inputs: Vec<Expr> = ["x", "y", "z"].map(|axis| Expr::name("p").member(axis)).into();
+        let base = self.part.base;
+        let slot = move |slot: usize| Expr::parameter(base + slot);
+        let (mut body, parts) = statements(&graph, &results, &inputs, &slot);
+        body.push(Statement::Return(Expr::vector(parts)));
+        let name = self.define("warp", index, Type::Vector(3), body);
+        let at = match at {
+            Some(at) => self.moved(point, at),
+            None => self.point(point),
+        };
+        if self.want == Want::Gradient {
+            let derivatives = Graph::new();
+            let duals = graph.differentiate::<3>(&results, &derivatives);
+            // By columns: the derivatives of the new point by each old coordinate.
+            let columns: Vec<expr::Expr<'_>> =
+                (0..3).flat_map(|axis| duals.iter().map(move |dual| dual.gradient[axis])).collect();
+            let (mut body, parts) = statements(&derivatives, &columns, &inputs, &slot);
+            let columns = parts.chunks(3).map(|column| Expr::vector(column.iter().cloned()));
+            body.push(Statement::Return(Expr::Make(Type::Matrix, columns.collect())));
+            let name = self.define("warp_derivative", index, Type::Matrix, body);
+            let map = self.bind("bend", Type::Matrix, Expr::call(name, [at.clone()]));
+            self.maps[index] = Some((point, map));
+        }
+        self.set_point(index, Expr::call(name, [at]));
+    }
+
+    /// The point that formulas are about, and what is subtracted from it.
+    fn space(&self, roots: &[usize]) -> (usize, Option<usize>) {
+        let is_needed = self.needed(roots);
+        let found = self.part.outline.steps.iter().zip(is_needed).find_map(|(action, is_needed)| match *action {
+            Action::Coordinate { point, at, .. } if is_needed => Some((point, Some(at))),
+            _ => None,
+        });
+        found.unwrap_or((0, None))
+    }
+
+    /// Which steps the formulas with these ends are made of.
+    fn needed(&self, roots: &[usize]) -> Vec<bool> {
+        let steps = &self.part.outline.steps;
+        let mut is_needed = vec![false; steps.len()];
+        roots.iter().for_each(|&root| is_needed[root] = true);
+        for index in (0..steps.len()).rev().filter(|&index| self.is_formula[index]) {
+            if is_needed[index] {
+                match steps[index] {
+                    Action::Unary { from, .. } | Action::Power { from, .. } => is_needed[from] = true,
+                    Action::Binary { a, b, .. } => {
+                        is_needed[a] = true;
+                        is_needed[b] = true;
+                    }
+                    _ => {}
+                }
+            }
+        }
+        is_needed
+    }
+
+    fn record<'g>(&self, graph: &'g Graph, roots: &[usize]) -> Vec<expr::Expr<'g>> {
+        let inputs = graph.point();
+        let mut terms: HashMap<usize, expr::Expr<'g>> = HashMap::new();
+        for (index, _) in self.needed(roots).into_iter().enumerate().filter(|(_, is_needed)| *is_needed) {
+            let term = match self.part.outline.steps[index] {
+                Action::Coordinate { axis, .. } => inputs[axis],
+                Action::Literal { constant } => inputs[0].constant(&Slots(constant as u32), 0),
+                Action::Unary { op, from } => op.apply(terms[&from]),
+                Action::Binary { op, a, b } => op.apply(terms[&a], terms[&b]),
+                Action::Power { from, exponent } => terms[&from].powi(exponent),
+                _ => unreachable!("no term of a formula"),
+            };
+            terms.insert(index, term);
+        }
+        roots.iter().map(|root| terms[root]).collect()
+    }
+
+    /// Defines a function of a point that belongs to this part alone, unless that was done.
+    fn define(&mut self, suffix: &str, step: usize, result: Type, body: Vec<Statement>) -> String {
+        let key = format!("{}#{suffix}#{step}", self.name);
+        let wanted = format!("{}_{suffix}", self.name);
+        self.helpers.once(key, &wanted, result, body)
+    }
+
+    fn shares(mut self) -> (Vec<Statement>, Vec<Expr>) {
+        let steps = &self.part.outline.steps;
+        let base = self.part.base;
+        let mut weights: Vec<Option<Expr>> = vec![None; steps.len()];
+        let mut sums: Vec<Option<Expr>> = vec![None; self.part.regions.len()];
+        weights[self.part.outline.result.expect("a part is something")] = Some(Expr::Float(1.0));
+        for index in (0..steps.len()).rev() {
+            let Some(weight) = weights[index].clone() else { continue };
+            let mut add = |region: usize| {
+                let sum = sums[region].take();
+                sums[region] = Some(sum.map_or(weight.clone(), |sum| sum + weight.clone()));
+            };
+            match &steps[index] {
+                Action::Combine { shape, a, b, constants } => {
+                    let values = [*a, *b].map(|step| self.values[step].clone().expect("a value"));
+                    let constants = base + constants.start..base + constants.end;
+                    let share = self.helpers.share(shape, values, constants);
+                    let share = if weight == Expr::Float(1.0) { share } else { weight.clone() * share };
+                    let second = self.bind("share", Type::Float, share);
+                    weights[*a] = Some(self.bind("rest", Type::Float, weight - second.clone()));
+                    weights[*b] = Some(second);
+                }
+                Action::Primitive { region: Some(region), .. } | Action::Surface { region, .. } => add(*region),
+                Action::Modify { from, .. } | Action::Scale { from, .. } | Action::Altered { from, .. } => {
+                    weights[*from] = Some(weight);
+                }
+                _ => {}
+            }
+        }
+        let sums = sums.into_iter().map(|sum| sum.unwrap_or(Expr::Float(0.0))).collect();
+        (self.body, sums)
+    }
+}
+
+/// Three parameters as a vector.
+pub(crate) fn triple(place: usize) -> Expr {
+    Expr::call("triple", [Expr::Int(place as i64)])
+}
+
+impl Helpers {
+    /// Defines a function of a point under a key of its own, once.
+    pub(crate) fn once(&mut self, key: String, wanted: &str, result: Type, body: Vec<Statement>) -> String {
+        if let Some(name) = self.known(&key) {
+            return name;
+        }
+        let name = self.names.make(wanted);
+        let arguments = vec![("p".to_owned(), Type::Vector(3))];
+        self.functions.push(Function { name: name.clone(), comment: Vec::new(), arguments, result, body });
+        self.remember(key, &name);
+        name
+    }
+}

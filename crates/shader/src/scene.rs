@@ -1,0 +1,240 @@
+//! From a scene to the functions that only its own shader has: `nearest`, `whole`, `part_gradient`, `surface_at`, and one for
+//! each part that is more than a call.
+
+use crate::helpers::{Helpers, Want};
+use crate::layout::{GROUP, GROUP_SIZE, Layout, PART_SIZE, REGION_SIZE};
+use crate::part::Part;
+use crate::tree::{Expr, Function, Item, Operator, Statement, Type};
+
+/// A part that takes more simple operations than this is passed over by its box, which takes about ten.
+const CHEAP: usize = 40;
+
+/// All functions that depend on the scene.
+pub(crate) fn items(parts: &[Part], layout: &Layout, mut helpers: Helpers) -> Vec<Item> {
+    let names: Vec<String> = parts.iter().map(|part| helpers.names.make(&part.source.name)).collect();
+    let mut own = Vec::new();
+    let mut values = Vec::new();
+    let mut gradients = Vec::new();
+    for (part, name) in parts.iter().zip(&names) {
+        values.push(one(part, Want::Value, name, &mut helpers, &mut own));
+        gradients.push(one(part, Want::Gradient, name, &mut helpers, &mut own));
+    }
+    let surfaces = surface_at(parts, &names, layout, &mut helpers, &mut own);
+    let has_steps = parts.iter().any(|part| !part.is_measured);
+    let nearest = nearest(parts, &names, &values, layout);
+    let whole = whole(parts, &names, &values, layout, has_steps);
+    let last = [nearest, whole, part_gradient(&gradients), whole_gradient(), surfaces];
+    helpers.functions.into_iter().chain(own).chain(last).map(Item::Function).collect()
+}
+
+/// What computes a part: the expression itself if it is but a call, otherwise a call of a function for it.
+fn one(part: &Part, want: Want, name: &str, helpers: &mut Helpers, own: &mut Vec<Function>) -> Expr {
+    let before = helpers.functions.len();
+    let (mut body, result) = part.value(want, name, helpers);
+    if body.is_empty() {
+        return result;
+    }
+    // Formulas come with the part that they belong to.
+    let formulas: Vec<Function> = {
+        let belongs = |function: &Function| function.name.starts_with(&format!("{name}_"));
+        let (formulas, others) = helpers.functions.split_off(before).into_iter().partition(belongs);
+        helpers.functions.extend::<Vec<Function>>(others);
+        formulas
+    };
+    own.extend(formulas);
+    body.push(Statement::Return(result));
+    let (name, result) = match want {
+        Want::Value => (name.to_owned(), Type::Float),
+        Want::Gradient => (helpers.names.make(&format!("{name}_gradient")), Type::Vector(4)),
+    };
+    let comment = match want {
+        Want::Value => vec![format!("The distance from {:?}.", part.source.name)],
+        Want::Gradient => Vec::new(),
+    };
+    own.push(of_point(&name, comment, result, body));
+    Expr::call(name, [Expr::name("p")])
+}
+
+fn of_point(name: &str, comment: Vec<String>, result: Type, body: Vec<Statement>) -> Function {
+    Function { name: name.into(), comment, arguments: vec![("p".into(), Type::Vector(3))], result, body }
+}
+
+/// `d = closer(d, value, index)`
+fn closer(value: Expr, index: usize) -> Statement {
+    let d = Expr::name("d");
+    Statement::Assign(d.clone(), Expr::call("closer", [d, value, Expr::Float(index as f32)]))
+}
+
+fn nothing() -> Statement {
+    let far = Expr::vector([Expr::name("FAR"), Expr::Float(-1.0)]);
+    Statement::Var("d".into(), Type::Vector(2), far)
+}
+
+fn apart(place: usize) -> Expr {
+    Expr::call("apart", [Expr::name("p"), Expr::Int(place as i64)])
+}
+
+/// The nearest of all parts, one after another, with statements for each.
+fn search(parts: &[Part], layout: &Layout, statement: impl Fn(usize) -> Vec<Statement>) -> Vec<Statement> {
+    let is_nearer =
+        |place: usize| Expr::binary(Operator::Less, apart(place), Expr::name("d").member("x"));
+    let mut body = vec![nothing()];
+    let mut group = Vec::new();
+    for (index, part) in parts.iter().enumerate() {
+        let mut statements = statement(index);
+        if part.cost() > CHEAP && index > 0 {
+            let box_place = layout.parts + PART_SIZE * index;
+            statements = vec![Statement::If(is_nearer(box_place), statements, Vec::new())];
+        }
+        if layout.group_count == 0 {
+            body.append(&mut statements);
+            continue;
+        }
+        group.append(&mut statements);
+        if (index + 1) % GROUP == 0 || index + 1 == parts.len() {
+            let place = layout.groups + GROUP_SIZE * (index / GROUP);
+            body.push(Statement::If(is_nearer(place), std::mem::take(&mut group), Vec::new()));
+        }
+    }
+    body
+}
+
+/// A value under the part's name, and the nearer of it and what is so far. A call needs no second name.
+fn tried(value: &Expr, name: &str, index: usize) -> Vec<Statement> {
+    match value {
+        Expr::Call(own, _) if own == name => vec![closer(value.clone(), index)],
+        _ => {
+            let name = format!("{name}_here");
+            vec![Statement::Let(name.clone(), Type::Float, value.clone()), closer(Expr::Name(name), index)]
+        }
+    }
+}
+
+fn nearest(parts: &[Part], names: &[String], values: &[Expr], layout: &Layout) -> Function {
+    let mut body = search(parts, layout, |index| {
+        let plain = tried(&values[index], &names[index], index);
+        if parts[index].is_measured {
+            return plain;
+        }
+        // A formula has a slope in its box only; outside, the box is what is near.
+        let place = layout.parts + PART_SIZE * index;
+        let far = format!("{}_apart", names[index]);
+        let slow = values[index].clone() * Expr::parameter(place + 6);
+        vec![
+            Statement::Let(far.clone(), Type::Float, apart(place)),
+            Statement::If(
+                Expr::binary(Operator::Greater, Expr::name(&*far), Expr::Float(0.0)),
+                vec![closer(Expr::name(&*far) + Expr::parameter(place + 7), index)],
+                vec![closer(slow, index)],
+            ),
+        ]
+    });
+    body.push(Statement::Return(Expr::name("d")));
+    let comment = vec!["How far a ray may go from a point before it meets a marched part, and which one is nearest.".into()];
+    of_point("nearest", comment, Type::Vector(2), body)
+}
+
+fn whole(parts: &[Part], names: &[String], values: &[Expr], layout: &Layout, has_steps: bool) -> Function {
+    let planes = |so_far: Expr| match layout.plane_count {
+        0 => so_far,
+        _ => Expr::call("nearest_plane", [so_far, Expr::name("p")]),
+    };
+    let mut body = Vec::new();
+    if has_steps {
+        body = search(parts, layout, |index| tried(&values[index], &names[index], index));
+        body.push(Statement::Return(planes(Expr::name("d"))));
+    } else {
+        body.push(Statement::Return(planes(Expr::call("nearest", [Expr::name("p")]))));
+    }
+    let comment = vec!["The field of the whole scene at a point, and the part that it belongs to.".into()];
+    of_point("whole", comment, Type::Vector(2), body)
+}
+
+fn is_part(index: usize) -> Expr {
+    Expr::binary(Operator::Equal, Expr::name("part"), Expr::Int(index as i64))
+}
+
+fn part_gradient(gradients: &[Expr]) -> Function {
+    let mut body: Vec<Statement> = gradients
+        .iter()
+        .enumerate()
+        .map(|(index, gradient)| {
+            Statement::If(is_part(index), vec![Statement::Return(gradient.clone())], Vec::new())
+        })
+        .collect();
+    body.push(Statement::Return(Expr::Make(Type::Vector(4), vec![Expr::Float(0.0)])));
+    Function {
+        name: "part_gradient".into(),
+        comment: vec!["The gradient of a part's field at a point, and its value.".into()],
+        arguments: vec![("part".into(), Type::Int), ("p".into(), Type::Vector(3))],
+        result: Type::Vector(4),
+        body,
+    }
+}
+
+/// The gradient of the whole scene's field.
+fn whole_gradient() -> Function {
+    let text = "
+        // The gradient of the whole scene's field at a point, and its value.
+        fn field_gradient(p: vec3<f32>) -> vec4<f32> {
+            let d: vec2<f32> = whole(p);
+            let part: i32 = i32(d.y);
+            if (part < PART_COUNT) {
+                return part_gradient(part, p);
+            }
+            let first: i32 = PLANES + PLANE_SIZE * (part - PART_COUNT);
+            let is_turned: bool = parameters[first + 4] > 0.0 && dot(triple(first), p) < parameters[first + 3];
+            return vec4<f32>(select(1.0, -1.0, is_turned) * parameters[first + 5] * triple(first), d.x);
+        }";
+    match crate::parse::parse(text).expect("the text is sound").remove(0) {
+        Item::Function(function) => function,
+        _ => unreachable!("it is a function"),
+    }
+}
+
+fn surface_at(
+    parts: &[Part],
+    names: &[String],
+    layout: &Layout,
+    helpers: &mut Helpers,
+    own: &mut Vec<Function>,
+) -> Function {
+    let mut body = Vec::new();
+    let spot = || Expr::name("spot");
+    for (index, (part, name)) in parts.iter().zip(names).enumerate() {
+        if part.regions.len() < 2 {
+            continue;
+        }
+        let (mut statements, shares) = part.shares(name, helpers);
+        statements.insert(0, Statement::Let("p".into(), Type::Vector(3), spot().member("position")));
+        let surface = Expr::name("surface");
+        let empty = Expr::call("no_surface", []);
+        statements.push(Statement::Var("surface".into(), Type::Struct("Surface".into()), empty));
+        for (share, &region) in shares.into_iter().zip(&part.regions) {
+            let place = Expr::Int((layout.regions + REGION_SIZE * region) as i64);
+            let sum = Expr::call("with_share", [surface.clone(), share, place, spot()]);
+            statements.push(Statement::Assign(surface.clone(), sum));
+        }
+        statements.push(Statement::Return(Expr::call("settled", [surface])));
+        let name = helpers.names.make(&format!("{name}_surface"));
+        own.push(Function {
+            name: name.clone(),
+            comment: Vec::new(),
+            arguments: vec![("spot".into(), Type::Struct("Spot".into()))],
+            result: Type::Struct("Surface".into()),
+            body: statements,
+        });
+        let call = Expr::call(name, [spot()]);
+        body.push(Statement::If(is_part(index), vec![Statement::Return(call)], Vec::new()));
+    }
+    let first = Expr::name("REGIONS") + Expr::name("REGION_SIZE") * Expr::name("part");
+    let only = Expr::call("with_share", [Expr::call("no_surface", []), Expr::Float(1.0), first, spot()]);
+    body.push(Statement::Return(only));
+    Function {
+        name: "surface_at".into(),
+        comment: vec!["What a part or a plane looks like at a point of its surface.".into()],
+        arguments: vec![("part".into(), Type::Int), ("spot".into(), Type::Struct("Spot".into()))],
+        result: Type::Struct("Surface".into()),
+        body,
+    }
+}

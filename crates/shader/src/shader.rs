@@ -1,0 +1,469 @@
+//! A scene as a shader: its text, which no number changes, and its numbers.
+
+use crate::helpers::Helpers;
+use crate::layout::{GROUP, GROUP_SIZE, LIGHT_SIZE, Layout, PART_SIZE, PLANE_SIZE, REGION_SIZE, write};
+use crate::module::needed;
+use crate::names::Names;
+use crate::parse::parse;
+use crate::part::{Part, Source, sources};
+use crate::scene;
+use crate::tree::Item;
+use freikugel_field::shape::ExactForm;
+use freikugel_field::{
+    Aabb, Action, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Outline, Structure, find_extent,
+};
+use freikugel_render::plan::{Place, PlannedLight, PlannedObject, PlannedShadow};
+use freikugel_render::{Plan, PrepareError};
+use freikugel_scene::{Background, Camera, FovAxis, Light, Material, Model, Overbright, Pattern, Projection, Scene};
+use glam::DVec3;
+use std::fmt;
+
+/// The texts of the library: see there.
+const LIBRARY: [&str; 6] = [
+    include_str!("library/basics.wgsl"),
+    include_str!("library/camera.wgsl"),
+    include_str!("library/material.wgsl"),
+    include_str!("library/trace.wgsl"),
+    include_str!("library/shade.wgsl"),
+    include_str!("library/picture.wgsl"),
+];
+
+/// What shells call; everything else is there for these.
+const ENTRIES: [&str; 5] = ["sample_along", "shown_along", "camera_ray", "field_gradient", "triple"];
+
+/// Half the edge of a box that holds everything.
+const EVERYWHERE: f64 = 1e18;
+
+/// What boxes of formulas are widened by, relative to their size, so that surfaces on their border lie inside.
+const BOX_MARGIN: f64 = 1e-3;
+
+/// Where no bound of a slope is found, the largest gradient at this many points along each axis is multiplied with the
+/// factor.
+const SLOPE_SAMPLES: usize = 12;
+const SLOPE_FACTOR: f64 = 2.0;
+
+/// A scene made into a shader.
+pub struct Shader {
+    parts: Vec<Part>,
+    planes: Vec<Plane>,
+    layout: Layout,
+    items: Vec<Item>,
+}
+
+/// An object that is nothing but a plane.
+struct Plane {
+    object: usize,
+    structure: Structure,
+}
+
+/// The numbers that a shader reads.
+#[derive(Clone, Debug)]
+pub struct Parameters {
+    numbers: Vec<f32>,
+    origin: DVec3,
+    notices: Vec<String>,
+}
+
+/// Why there is no shader for a scene.
+#[derive(Debug)]
+pub enum ShaderError {
+    /// The scene can't be rendered at all.
+    Prepare(PrepareError),
+    /// The fields have faults.
+    Fields(Vec<Diagnostic>),
+    /// The scene is not of the form that the shader was made for.
+    OtherScene(String),
+    /// The text did not pass validation: a mistake of this program.
+    Invalid(String),
+}
+
+impl Shader {
+    /// Makes a shader for a scene and all others that differ from it in numbers only.
+    ///
+    /// # Errors
+    /// If the scene can't be rendered.
+    pub fn new(scene: &Scene) -> Result<Self, ShaderError> {
+        let plan = plan(scene)?;
+        let (mut parts, planes) = dissect(scene, &plan)?;
+        // The first region of each part, then those of planes, then all others.
+        let mut region_count = parts.len() + planes.len();
+        let mut constant_count = 0;
+        for (index, part) in parts.iter_mut().enumerate() {
+            let count = part.structure.regions().len();
+            part.regions = std::iter::once(index).chain(region_count..).take(count).collect();
+            region_count += count.saturating_sub(1);
+            part.base = constant_count;
+            constant_count += part.structure.program(DVec3::ZERO).constants().len();
+        }
+        let layout = Layout::new(parts.len(), planes.len(), region_count, constant_count);
+        parts.iter_mut().for_each(|part| part.base += layout.constants);
+
+        let mut names = Names::new();
+        let library: Vec<Item> =
+            LIBRARY.iter().flat_map(|text| parse(text).expect("the library is sound")).collect();
+        library.iter().for_each(|item| names.take(item.name()));
+        ["nearest", "whole", "part_gradient", "field_gradient", "surface_at"].iter().for_each(|name| names.take(name));
+        let mut all = layout.items();
+        all.extend(library);
+        all.extend(scene::items(&parts, &layout, Helpers::new(names)));
+        let items = needed(&all, &ENTRIES);
+        Ok(Self { parts, planes, layout, items })
+    }
+
+    /// The items that all targets share.
+    pub(crate) fn items(&self) -> &[Item] {
+        &self.items
+    }
+
+    /// How many parts are marched.
+    pub fn part_count(&self) -> usize {
+        self.parts.len()
+    }
+
+    /// How many parameters a scene with this many lights has.
+    pub fn parameter_count(&self, lights: usize) -> usize {
+        self.layout.lights + LIGHT_SIZE * lights
+    }
+
+    /// The numbers of a scene of the form that the shader was made for. The size and the samples of its picture count too: they
+    /// say how wide a ray is, and how a scene without a camera is framed.
+    ///
+    /// # Errors
+    /// If the scene can't be rendered, or has another form.
+    pub fn parameters(&self, scene: &Scene) -> Result<Parameters, ShaderError> {
+        let plan = plan(scene)?;
+        let (parts, planes) = dissect(scene, &plan)?;
+        self.compare(scene, &parts, &planes)?;
+        let mut numbers = vec![0.0; self.parameter_count(plan.lights.len())];
+        let mut notices = Vec::new();
+        head(&mut numbers, scene, &plan);
+        let mut boxes = Vec::with_capacity(parts.len());
+        for (index, part) in parts.iter().enumerate() {
+            let program = part.structure.program(plan.origin);
+            write_singles(&mut numbers[self.parts[index].base..], program.single_constants());
+            let bounds = match find_extent(&part.source.field, &Limits::default()) {
+                Extent::Finite(bounds) => Some(bounds),
+                Extent::Empty | Extent::Unbounded => None,
+            };
+            let (bounds, factor, margin) = match part.is_measured {
+                true => (bounds, 1.0, 0.0),
+                false => {
+                    let margin = bounds.map_or(0.0, |bounds| BOX_MARGIN * bounds.size().max_element());
+                    let widened = bounds.map(|bounds| Aabb { min: bounds.min - margin, max: bounds.max + margin });
+                    let slope = slope(part, widened, scene, &plan, &mut notices);
+                    (widened, 1.0 / (slope * plan.scale), margin)
+                }
+            };
+            let place = self.layout.parts + PART_SIZE * index;
+            write_box(&mut numbers[place..], bounds, plan.origin);
+            write(&mut numbers[place + 6..], &[factor, margin]);
+            boxes.push(bounds);
+            for (region, &place) in part.structure.regions().iter().zip(&self.parts[index].regions) {
+                self.write_region(&mut numbers, place, part.source.object, region.material, scene, &plan);
+            }
+        }
+        for (group, boxes) in boxes.chunks(GROUP).enumerate().take(self.layout.group_count) {
+            let all = boxes.iter().copied().reduce(|a, b| Some(a?.hull(b?))).flatten();
+            write_box(&mut numbers[self.layout.groups + GROUP_SIZE * group..], all, plan.origin);
+        }
+        for (index, plane) in planes.iter().enumerate() {
+            let form = plan.objects[plane.object].exact.expect("a plane");
+            let (normal, offset, is_sheet) = match form {
+                ExactForm::HalfSpace { normal, offset } => (normal, offset, 0.0),
+                ExactForm::Sheet { normal, offset } => (normal, offset, 1.0),
+            };
+            let offset = offset - normal.dot(plan.origin);
+            let slope = plane.structure.program(plan.origin).gradient(plan.origin + normal).1.length();
+            let place = self.layout.planes + PLANE_SIZE * index;
+            write(&mut numbers[place..], &[normal.x, normal.y, normal.z, offset, is_sheet, slope]);
+            let own = plane.structure.regions().first().and_then(|region| region.material);
+            self.write_region(&mut numbers, parts.len() + index, plane.object, own, scene, &plan);
+        }
+        for (index, light) in plan.lights.iter().enumerate() {
+            let place = self.layout.lights + LIGHT_SIZE * index;
+            write_light(&mut numbers[place..place + LIGHT_SIZE], light);
+        }
+        Ok(Parameters { numbers, origin: plan.origin, notices })
+    }
+
+    /// Whether the parts of a scene are those of this shader but for their numbers.
+    fn compare(&self, scene: &Scene, parts: &[Part], planes: &[Plane]) -> Result<(), ShaderError> {
+        let other = |object: usize| {
+            let name = scene.objects.get(object).map_or("", |object| object.name.as_str());
+            Err(ShaderError::OtherScene(name.to_owned()))
+        };
+        let form = |part: &Part| (part.source.object, part.is_measured, outline_key(&part.outline));
+        if parts.len() != self.parts.len() || planes.len() != self.planes.len() {
+            return other(parts.len());
+        }
+        for (own, part) in self.parts.iter().zip(parts) {
+            if form(own) != form(part) || own.structure.regions().len() != part.structure.regions().len() {
+                return other(part.source.object);
+            }
+        }
+        for (own, plane) in self.planes.iter().zip(planes) {
+            if own.object != plane.object {
+                return other(plane.object);
+            }
+        }
+        Ok(())
+    }
+
+    fn write_region(
+        &self,
+        numbers: &mut [f32],
+        region: usize,
+        object: usize,
+        own: Option<MaterialId>,
+        scene: &Scene,
+        plan: &Plan,
+    ) {
+        let plain = Material::default();
+        let id = own.or(scene.objects[object].material);
+        let material = id.and_then(|id| scene.materials.get(id.0 as usize)).map_or(&plain, |(_, material)| material);
+        let (colors, size) = match &material.color {
+            Pattern::Solid(color) => ([*color; 2], 0.0),
+            Pattern::Checker { colors, size } => (*colors, *size),
+        };
+        // Cells alternate with a period of two, so that only the rest matters of how far away the origin is.
+        let phase = if size > 0.0 { (plan.origin / size).map(|x| x.rem_euclid(2.0)) } else { DVec3::ZERO };
+        let wide = |color: [f32; 3]| color.map(f64::from);
+        let mut all = Vec::with_capacity(REGION_SIZE);
+        all.extend(wide(colors[0]));
+        all.extend(wide(colors[1]));
+        all.push(size);
+        all.extend(phase.to_array());
+        all.extend(wide(material.emissive));
+        all.extend([material.ambient, material.diffuse, material.specular, material.exponent].map(f64::from));
+        let is_sheet = f64::from(u8::from(plan.objects[object].is_sheet));
+        all.extend([f64::from(u8::from(material.model == Model::BlinnPhong)), object as f64, 0.0, is_sheet]);
+        let place = self.layout.regions + REGION_SIZE * region;
+        write(&mut numbers[place..place + REGION_SIZE], &all);
+    }
+}
+
+impl Parameters {
+    /// The table, in the order in which the shader reads it.
+    pub fn numbers(&self) -> &[f32] {
+        &self.numbers
+    }
+
+    /// The point of the world that the shader's coordinates are relative to.
+    pub fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// What the user should know about these numbers.
+    pub fn notices(&self) -> &[String] {
+        &self.notices
+    }
+
+    /// Changes what belongs to the camera and the size of the picture to those of `scene`, of which nothing else counts. The
+    /// origin stays where it is.
+    ///
+    /// # Errors
+    /// If the camera shows nothing.
+    pub fn look(&mut self, scene: &Scene) -> Result<(), ShaderError> {
+        let bare = Scene {
+            camera: scene.camera.clone(),
+            tracer: scene.tracer.clone(),
+            picture: scene.picture.clone(),
+            lights: Vec::<Light>::new(),
+            objects: Vec::new(),
+            ..Scene::default()
+        };
+        let plan = plan(&bare)?;
+        look(&mut self.numbers, &bare, &plan, self.origin);
+        Ok(())
+    }
+}
+
+fn plan(scene: &Scene) -> Result<Plan, ShaderError> {
+    let picture = &scene.picture;
+    Plan::new(scene, picture.width, picture.height, picture.samples).map_err(ShaderError::Prepare)
+}
+
+/// The parts and planes of a scene.
+fn dissect(scene: &Scene, plan: &Plan) -> Result<(Vec<Part>, Vec<Plane>), ShaderError> {
+    let mut parts = Vec::new();
+    let mut planes = Vec::new();
+    for (index, (object, planned)) in scene.objects.iter().zip(&plan.objects).enumerate() {
+        let compile = |field: &Field| Structure::compile(std::slice::from_ref(field)).map_err(ShaderError::Fields);
+        if let PlannedObject { exact: Some(_), .. } = planned {
+            planes.push(Plane { object: index, structure: compile(&object.shape)? });
+            continue;
+        }
+        for source in sources(index, &object.name, &object.shape) {
+            parts.push(part(source, compile)?);
+        }
+    }
+    Ok((parts, planes))
+}
+
+fn part(
+    source: Source,
+    compile: impl Fn(&Field) -> Result<Structure, ShaderError>,
+) -> Result<Part, ShaderError> {
+    let structure = compile(&source.field)?;
+    let outline = structure.program(DVec3::ZERO).outline();
+    // What is computed from coordinates other than by primitives has no scale of its own.
+    let is_measured =
+        !outline.steps.iter().any(|action| matches!(action, Action::Coordinate { .. } | Action::Literal { .. }));
+    Ok(Part { source, structure, outline, base: 0, regions: Vec::new(), is_measured })
+}
+
+/// What tells outlines apart.
+fn outline_key(outline: &Outline) -> String {
+    let mut key = format!("{:?}", outline.result);
+    for action in &outline.steps {
+        // Shapes are told apart by their names; their descriptors would fill pages.
+        let text = match action {
+            Action::Primitive { shape, point, at, constants, region } => {
+                format!("{} {point} {at} {constants:?} {region:?}", shape.about.name)
+            }
+            Action::Combine { shape, a, b, constants } => format!("{} {a} {b} {constants:?}", shape.about.name),
+            Action::Modify { shape, from, constants } => format!("{} {from} {constants:?}", shape.about.name),
+            other => format!("{other:?}"),
+        };
+        key.push('\n');
+        key.push_str(&text);
+    }
+    key
+}
+
+/// A bound of a part's slope where it is marched, or a guess and a notice.
+fn slope(part: &Part, bounds: Option<Aabb>, scene: &Scene, plan: &Plan, notices: &mut Vec<String>) -> f64 {
+    let region = bounds.or(plan.bounds).unwrap_or_else(|| {
+        let reach = DVec3::splat(scene.tracer.max_distance);
+        Aabb { min: plan.camera.eye - reach, max: plan.camera.eye + reach }
+    });
+    let program = part.structure.program(DVec3::ZERO);
+    let side = |axis: usize| Interval::new(region.min[axis], region.max[axis]);
+    if let Some(slope) = program.lipschitz_over([side(0), side(1), side(2)])
+        && slope.is_finite()
+        && slope > 0.0
+    {
+        return slope;
+    }
+    notices.push(format!(
+        "{:?}: no bound of its slope is known, so that rays go by the steepest of some samples and may miss thin places",
+        part.source.name
+    ));
+    let place = |axis: usize, index: usize| {
+        region.min[axis] + region.size()[axis] * (index as f64 + 0.5) / SLOPE_SAMPLES as f64
+    };
+    let all = 0..SLOPE_SAMPLES.pow(3);
+    let gradient = |index: usize| {
+        let at = [index % SLOPE_SAMPLES, index / SLOPE_SAMPLES % SLOPE_SAMPLES, index / SLOPE_SAMPLES.pow(2)];
+        program.gradient(DVec3::new(place(0, at[0]), place(1, at[1]), place(2, at[2]))).1.length()
+    };
+    let steepest = all.map(gradient).filter(|slope| slope.is_finite()).fold(0.0, f64::max);
+    (SLOPE_FACTOR * steepest).max(1e-6)
+}
+
+/// The numbers of the header.
+fn head(numbers: &mut [f32], scene: &Scene, plan: &Plan) {
+    let mut set = |name: &str, values: &[f64]| Layout::set(numbers, name, values);
+    let wide = |color: [f32; 3]| color.map(f64::from);
+    set("SCALE", &[plan.scale]);
+    set("STEP_FACTOR", &[scene.tracer.step_factor]);
+    set("MAX_STEPS", &[f64::from(scene.tracer.max_steps)]);
+    set("MAX_DISTANCE", &[scene.tracer.max_distance]);
+    let (min, max) = match plan.bounds {
+        Some(bounds) => (bounds.min - plan.origin, bounds.max - plan.origin),
+        None => (DVec3::splat(-EVERYWHERE), DVec3::splat(EVERYWHERE)),
+    };
+    set("BOUNDS", &[min.x, min.y, min.z, max.x, max.y, max.z]);
+    let pair = |a: [f32; 3], b: [f32; 3]| [wide(a), wide(b)].concat();
+    set("AMBIENT", &pair(scene.ambient.ground, scene.ambient.sky));
+    set(
+        "BACKGROUND",
+        &match scene.background {
+            Background::Solid(color) => pair(color, color),
+            Background::Gradient { top, bottom } => pair(bottom, top),
+        },
+    );
+    let occlusion: Vec<f64> = plan.occlusion.unwrap_or_default().iter().flatten().copied().map(f64::from).collect();
+    set("OCCLUSION", &occlusion);
+    set("GAIN", &[f64::from(scene.picture.exposure).exp2()]);
+    set("SCALES_DOWN", &[f64::from(u8::from(scene.picture.overbright == Overbright::ScaleDown))]);
+    let warning = scene.tracer.warning.map_or([0.0; 4], |color| {
+        let [r, g, b] = wide(color);
+        [1.0, r, g, b]
+    });
+    set("WARNING", &warning);
+    set("SCENE_SIZE", &[plan.size]);
+    set("LIGHT_COUNT", &[plan.lights.len() as f64]);
+    look(numbers, scene, plan, plan.origin);
+}
+
+/// The numbers of the header that belong to the camera.
+fn look(numbers: &mut [f32], scene: &Scene, plan: &Plan, origin: DVec3) {
+    let mut set = |name: &str, values: &[f64]| Layout::set(numbers, name, values);
+    let camera = &plan.camera;
+    set("EYE", &(camera.eye - origin).to_array());
+    set("RIGHT", &camera.right.to_array());
+    set("UP", &camera.up.to_array());
+    set("FORWARD", &camera.forward.to_array());
+    let target = match &scene.camera {
+        Some(Camera { target, .. }) => *target,
+        None => camera.eye + camera.forward * plan.size,
+    };
+    set("TARGET", &(target - origin).to_array());
+    let is_horizontal = matches!(
+        scene.camera,
+        Some(Camera { projection: Projection::Perspective { axis: FovAxis::Horizontal, .. }, .. })
+    );
+    set("HALF", &[camera.half[usize::from(!is_horizontal)]]);
+    set("IS_HORIZONTAL", &[f64::from(u8::from(is_horizontal))]);
+    set("IS_PERSPECTIVE", &[f64::from(u8::from(camera.is_perspective))]);
+    set("FOOTPRINT", &camera.footprint);
+    let tolerance = plan.tolerance;
+    set("TOLERANCE", &[tolerance.fixed, tolerance.growth, tolerance.precision, tolerance.exponent]);
+}
+
+fn write_singles(to: &mut [f32], numbers: &[f32]) {
+    to[..numbers.len()].copy_from_slice(numbers);
+}
+
+/// The middle of a box and half its edges, relative to the origin; everything if there is none.
+fn write_box(to: &mut [f32], bounds: Option<Aabb>, origin: DVec3) {
+    let (middle, half) = match bounds {
+        Some(bounds) => (bounds.center() - origin, bounds.size() / 2.0),
+        None => (DVec3::ZERO, DVec3::splat(EVERYWHERE)),
+    };
+    write(to, &[middle.x, middle.y, middle.z, half.x, half.y, half.z]);
+}
+
+fn write_light(to: &mut [f32], light: &PlannedLight) {
+    let (kind, place) = match light.place {
+        Place::Sun(direction) => (0.0, direction),
+        Place::Lamp(position) => (1.0, position),
+    };
+    let (axis, outer, inner) = light.cone.unwrap_or(([0.0; 3], 0.0, 0.0));
+    let (shadow, measure) = match light.shadow {
+        PlannedShadow::None => (0.0, 0.0),
+        PlannedShadow::Hard => (1.0, 0.0),
+        PlannedShadow::Sharpness(sharpness) => (2.0, sharpness),
+        PlannedShadow::Clearance(clearance) => (3.0, clearance),
+    };
+    let falloff = light.falloff.map(|c| c as f32);
+    let has_cone = f32::from(u8::from(light.cone.is_some()));
+    let all = [&[kind], &place[..], &light.power, &falloff, &[has_cone], &axis, &[outer, inner, shadow, measure]];
+    to.copy_from_slice(&all.concat());
+}
+
+impl fmt::Display for ShaderError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Prepare(error) => error.fmt(f),
+            Self::Fields(diagnostics) => diagnostics.iter().try_for_each(|diagnostic| writeln!(f, "{diagnostic}")),
+            Self::OtherScene(object) => {
+                write!(f, "the scene differs from the shader's in more than numbers, first at object {object:?}")
+            }
+            Self::Invalid(message) => write!(f, "the shader did not pass validation, which is a mistake of Freikugel: {message}"),
+        }
+    }
+}
+
+impl std::error::Error for ShaderError {}

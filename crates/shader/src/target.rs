@@ -1,0 +1,150 @@
+//! The shells around the common text: what each language and host wants of a shader.
+
+use crate::glsl::Table;
+use crate::shader::{Parameters, Shader, ShaderError};
+use crate::{glsl, wgsl};
+use std::fmt::Write;
+
+/// A language, and a host that runs it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// WebGPU: the entry points `render`, `probe`, `cover` and `show`. See the [crate documentation](crate).
+    Wgsl,
+    /// WebGL 2: a fragment shader in GLSL ES 3.00.
+    Glsl,
+    /// Shadertoy: `mainImage`, with the numbers in the text.
+    Shadertoy,
+    /// A compute shader for Unity in HLSL.
+    Hlsl,
+    /// Metal.
+    Msl,
+}
+
+impl Target {
+    /// All of them with their names on the command line.
+    pub const ALL: [(Self, &'static str); 5] = [
+        (Self::Wgsl, "wgsl"),
+        (Self::Glsl, "glsl"),
+        (Self::Shadertoy, "shadertoy"),
+        (Self::Hlsl, "hlsl"),
+        (Self::Msl, "msl"),
+    ];
+}
+
+/// WebGL 2 guarantees this many vectors of uniforms; a few are left for others.
+const MOST_UNIFORMS: usize = 220;
+
+/// Vectors in a row of the texture that holds larger tables.
+pub const TEXTURE_WIDTH: usize = 256;
+
+impl Shader {
+    /// The text for a target. Only that for Shadertoy depends on the numbers; its host has no place for them outside the text.
+    /// That for WebGL 2 depends on how many there are: up to 220 vectors are uniforms, more come in a texture.
+    ///
+    /// # Errors
+    /// If the text does not pass validation, which would be a mistake of this crate.
+    pub fn text(&self, target: Target, parameters: &Parameters) -> Result<String, ShaderError> {
+        match target {
+            Target::Wgsl => {
+                let text = self.wgsl(WGSL_SHELL);
+                validated(&text)?;
+                Ok(text)
+            }
+            Target::Glsl => Ok(self.webgl(parameters)),
+            Target::Shadertoy => Ok(self.shadertoy(parameters)),
+            Target::Hlsl => self.hlsl(),
+            Target::Msl => self.msl(),
+        }
+    }
+
+    fn wgsl(&self, shell: &str) -> String {
+        let mut text = String::from(WGSL_HEAD);
+        text.push_str(&wgsl::items(self.items()));
+        text.push_str(shell);
+        text
+    }
+
+    fn webgl(&self, parameters: &Parameters) -> String {
+        let count = parameters.numbers().len().div_ceil(4);
+        let is_small = count <= MOST_UNIFORMS;
+        let mut text = String::from("#version 300 es\nprecision highp float;\nprecision highp int;\n\n");
+        text.push_str(GLSL_VIEW);
+        text.push_str("uniform View view;\n\n");
+        if is_small {
+            let _ = writeln!(text, "uniform vec4 parameters[{count}];\n");
+            text.push_str("float parameter(int place) {\n    return parameters[place >> 2][place & 3];\n}\n\n");
+        } else {
+            text.push_str("precision highp sampler2D;\nuniform sampler2D parameters;\n\n");
+            let _ = writeln!(
+                text,
+                "float parameter(int place) {{\n    int texel = place >> 2;\n    return texelFetch(parameters, \
+                 ivec2(texel % {TEXTURE_WIDTH}, texel / {TEXTURE_WIDTH}), 0)[place & 3];\n}}\n"
+            );
+        }
+        text.push_str(&glsl::items(self.items(), if is_small { Table::Vectors } else { Table::Texture }));
+        text.push_str(WEBGL_SHELL);
+        text
+    }
+
+    fn shadertoy(&self, parameters: &Parameters) -> String {
+        let mut text = String::from(SHADERTOY_HEAD);
+        let numbers = parameters.numbers();
+        let _ = writeln!(text, "const float parameters[{0}] = float[{0}](", numbers.len());
+        for (row, numbers) in numbers.chunks(10).enumerate() {
+            let line: Vec<String> = numbers.iter().map(|&number| crate::print::decimal(number)).collect();
+            let end = if (row + 1) * 10 >= parameters.numbers().len() { "" } else { "," };
+            let _ = writeln!(text, "    {}{end}", line.join(", "));
+        }
+        text.push_str(");\n\n");
+        text.push_str(GLSL_VIEW);
+        text.push_str("View view;\n\n");
+        text.push_str(&glsl::items(self.items(), Table::Numbers));
+        text.push_str(SHADERTOY_SHELL);
+        text
+    }
+
+    fn hlsl(&self) -> Result<String, ShaderError> {
+        let (module, info) = validated(&self.wgsl(UNITY_SHELL))?;
+        let options = naga::back::hlsl::Options {
+            shader_model: naga::back::hlsl::ShaderModel::V5_0,
+            fake_missing_bindings: true,
+            ..Default::default()
+        };
+        let pipeline = naga::back::hlsl::PipelineOptions::default();
+        let mut text = String::new();
+        naga::back::hlsl::Writer::new(&mut text, &options, &pipeline)
+            .write(&module, &info, None)
+            .map_err(|error| ShaderError::Invalid(error.to_string()))?;
+        Ok(format!("{UNITY_HEAD}{text}{UNITY_TAIL}"))
+    }
+
+    fn msl(&self) -> Result<String, ShaderError> {
+        let (module, info) = validated(&self.wgsl(WGSL_SHELL))?;
+        let options = naga::back::msl::Options { fake_missing_bindings: true, ..Default::default() };
+        let (text, _) =
+            naga::back::msl::write_string(&module, &info, &options, &naga::back::msl::PipelineOptions::default())
+                .map_err(|error| ShaderError::Invalid(error.to_string()))?;
+        Ok(text)
+    }
+}
+
+/// A module that an independent judge accepts.
+fn validated(text: &str) -> Result<(naga::Module, naga::valid::ModuleInfo), ShaderError> {
+    let module = naga::front::wgsl::parse_str(text)
+        .map_err(|error| ShaderError::Invalid(error.emit_to_string(text)))?;
+    let flags = naga::valid::ValidationFlags::all();
+    let info = naga::valid::Validator::new(flags, naga::valid::Capabilities::empty())
+        .validate(&module)
+        .map_err(|error| ShaderError::Invalid(error.emit_to_string(text)))?;
+    Ok((module, info))
+}
+
+const WGSL_HEAD: &str = include_str!("shells/head.wgsl");
+const WGSL_SHELL: &str = include_str!("shells/entries.wgsl");
+const UNITY_SHELL: &str = include_str!("shells/unity.wgsl");
+const UNITY_HEAD: &str = include_str!("shells/unity_head.hlsl");
+const UNITY_TAIL: &str = include_str!("shells/unity_tail.hlsl");
+const GLSL_VIEW: &str = include_str!("shells/view.glsl");
+const WEBGL_SHELL: &str = include_str!("shells/webgl.glsl");
+const SHADERTOY_HEAD: &str = include_str!("shells/shadertoy_head.glsl");
+const SHADERTOY_SHELL: &str = include_str!("shells/shadertoy.glsl");
