@@ -186,7 +186,12 @@ impl Writer<'_> {
             Term::Unary(op, a) => {
                 let a = self.operand(a);
                 let name = match op {
-                    Unary::Neg => return Some(Expr::Negate(Box::new(a))),
+                    Unary::Neg => {
+                        return Some(match a {
+                            Expr::Float(number) => Expr::Float(-number),
+                            a => Expr::Negate(Box::new(a)),
+                        });
+                    }
                     Unary::Not => return Some(Expr::Not(Box::new(a))),
                     Unary::Abs => "abs",
                     Unary::Sqrt => "sqrt",

@@ -17,7 +17,14 @@ const MOST_ARGUMENTS: usize = 10;
 pub(crate) struct Helpers {
     pub(crate) names: Names,
     pub(crate) functions: Vec<Function>,
-    known: HashMap<String, String>,
+    known: HashMap<String, Known>,
+}
+
+/// A function that is there: its name, and which constants it takes.
+#[derive(Clone)]
+struct Known {
+    name: String,
+    takes: Vec<usize>,
 }
 
 /// What is wanted of a function.
@@ -42,12 +49,12 @@ impl Helpers {
 
     /// The function that was defined under a key.
     pub(crate) fn known(&self, key: &str) -> Option<String> {
-        self.known.get(key).cloned()
+        self.known.get(key).map(|known| known.name.clone())
     }
 
     /// Notes what a function was defined under.
     pub(crate) fn remember(&mut self, key: String, name: &str) {
-        self.known.insert(key, name.to_owned());
+        self.known.insert(key, Known { name: name.to_owned(), takes: Vec::new() });
     }
 
     /// A call of a primitive at a point.
@@ -88,8 +95,8 @@ impl Helpers {
     pub(crate) fn share(&mut self, shape: &'static Shape, [a, b]: [Expr; 2], constants: Range<usize>) -> Expr {
         let Kind::Combine(table) = &shape.kind else { unreachable!("a combination") };
         let (passing, key) = self.passing(shape, constants.len(), "share");
-        let name = match self.known.get(&key) {
-            Some(name) => name.clone(),
+        let known = match self.known.get(&key) {
+            Some(known) => known.clone(),
             None => {
                 let graph = Graph::new();
                 let [x, y] = [0, 1].map(|input| graph.input(input));
@@ -101,7 +108,7 @@ impl Helpers {
                 self.define(key, values, &passing, Type::Float, body, Vec::new())
             }
         };
-        Expr::Call(name, passing.arguments(vec![a, b], constants))
+        passing.call(known, vec![a, b], constants)
     }
 
     /// A change of a value, or of a value with its gradient.
@@ -143,11 +150,11 @@ impl Helpers {
             Want::Gradient => format!("{op}_gradient"),
         };
         let passing = Passing::Each(Vec::new());
-        let name = match self.known.get(&key) {
-            Some(name) => name.clone(),
+        let known = match self.known.get(&key) {
+            Some(known) => known.clone(),
             None => self.value_function(want, key, values.len(), &passing, &|graph, _| record(graph), 0),
         };
-        Expr::Call(name, values.to_vec())
+        passing.call(known, values.to_vec(), 0..0)
     }
 
     fn of_values(
@@ -159,11 +166,11 @@ impl Helpers {
         record: &dyn Fn(&Graph, usize) -> u32,
     ) -> Expr {
         let (passing, key) = self.passing(shape, constants.len(), want.suffix());
-        let name = match self.known.get(&key) {
-            Some(name) => name.clone(),
+        let known = match self.known.get(&key) {
+            Some(known) => known.clone(),
             None => self.value_function(want, key, values.len(), &passing, record, constants.len()),
         };
-        Expr::Call(name, passing.arguments(values.to_vec(), constants))
+        passing.call(known, values.to_vec(), constants)
     }
 
     /// Defines a function of one or two values.
@@ -175,7 +182,7 @@ impl Helpers {
         passing: &Passing,
         record: &dyn Fn(&Graph, usize) -> u32,
         constants: usize,
-    ) -> String {
+    ) -> Known {
         let graph = Graph::new();
         // Inputs come first, so that they are there even if nothing reads them.
         let _ = [0, 1].map(|input| graph.input(input));
@@ -228,8 +235,8 @@ impl Helpers {
         gradient: impl Fn(&[Expr]) -> Vec<Expr>,
     ) -> Expr {
         let (passing, key) = self.passing(shape, constants.len(), want.suffix());
-        let name = match self.known.get(&key) {
-            Some(name) => name.clone(),
+        let known = match self.known.get(&key) {
+            Some(known) => known.clone(),
             None => {
                 let graph = Graph::new();
                 let _ = graph.point();
@@ -256,7 +263,7 @@ impl Helpers {
             }
         };
         let values = arguments.into_iter().map(|(.., value)| value).collect();
-        Expr::Call(name, passing.arguments(values, constants))
+        passing.call(known, values, constants)
     }
 
     fn define(
@@ -267,16 +274,24 @@ impl Helpers {
         result: Type,
         body: Vec<Statement>,
         comment: Vec<String>,
-    ) -> String {
+    ) -> Known {
         let name = self.names.make(&key);
         let mut arguments: Vec<(String, Type)> = values.into_iter().map(|(name, ty)| (name.into(), ty)).collect();
+        let mut takes = Vec::new();
         match passing {
-            Passing::Each(names) => arguments.extend(names.iter().map(|name| (name.clone(), Type::Float))),
+            // What a formula does not read, such as the axis that its point was turned for, is not passed.
+            Passing::Each(names) => {
+                for (place, name) in names.iter().enumerate().filter(|(_, name)| reads(&body, name)) {
+                    takes.push(place);
+                    arguments.push((name.clone(), Type::Float));
+                }
+            }
             Passing::First => arguments.push(("first".into(), Type::Int)),
         }
         self.functions.push(Function { name: name.clone(), comment, arguments, result, body });
-        self.known.insert(key, name.clone());
-        name
+        let known = Known { name, takes };
+        self.known.insert(key, known.clone());
+        known
     }
 
     /// How a shape's constants are passed, and what tells its functions apart: lists have any number of constants.
@@ -321,13 +336,27 @@ impl Passing {
         }
     }
 
-    fn arguments(&self, mut values: Vec<Expr>, constants: Range<usize>) -> Vec<Expr> {
+    fn call(&self, known: Known, mut values: Vec<Expr>, constants: Range<usize>) -> Expr {
         match self {
-            Self::Each(_) => values.extend(constants.map(Expr::parameter)),
+            Self::Each(_) => values.extend(known.takes.iter().map(|place| Expr::parameter(constants.start + place))),
             Self::First => values.push(Expr::Int(constants.start as i64)),
         }
-        values
+        Expr::Call(known.name, values)
     }
+}
+
+/// Whether some statements read a name.
+fn reads(body: &[Statement], name: &str) -> bool {
+    fn in_expr(expr: &Expr, name: &str) -> bool {
+        matches!(expr, Expr::Name(own) if own == name) || expr.parts().into_iter().any(|part| in_expr(part, name))
+    }
+    body.iter().any(|statement| match statement {
+        Statement::Let(_, _, value) | Statement::Var(_, _, value) | Statement::Return(value) => in_expr(value, name),
+        Statement::Assign(_, value) => in_expr(value, name),
+        Statement::If(condition, yes, no) => in_expr(condition, name) || reads(yes, name) || reads(no, name),
+        Statement::Count(_, _, _, body) | Statement::Loop(body) => reads(body, name),
+        Statement::Comment(_) | Statement::Break | Statement::Continue => false,
+    })
 }
 
 /// Names of a shape's constants: those of the parameters that they are or are half of, as a sample of arguments shows.

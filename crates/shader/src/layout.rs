@@ -61,7 +61,6 @@ pub(crate) struct Layout {
     pub(crate) planes: usize,
     pub(crate) plane_count: usize,
     pub(crate) regions: usize,
-    pub(crate) region_count: usize,
     pub(crate) constants: usize,
     pub(crate) lights: usize,
 }
@@ -84,7 +83,6 @@ impl Layout {
             planes,
             plane_count,
             regions,
-            region_count,
             constants,
             lights,
         }

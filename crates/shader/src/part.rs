@@ -99,13 +99,13 @@ impl Part {
         let result = self.outline.result.expect("a part is something");
         let value = walk.values[result].clone().expect("every step has a value");
         let mut body = walk.body;
-        match body.as_slice() {
-            [Statement::Let(name, _, only)] if value == Expr::name(&**name) => {
-                let only = only.clone();
-                body.clear();
-                (body, only)
+        match body.pop() {
+            // The last line needs no name.
+            Some(Statement::Let(name, _, last)) if value == Expr::name(&*name) => (body, last),
+            last => {
+                body.extend(last);
+                (body, value)
             }
-            _ => (body, value),
         }
     }
 

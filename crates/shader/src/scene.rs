@@ -61,8 +61,12 @@ fn of_point(name: &str, comment: Vec<String>, result: Type, body: Vec<Statement>
 
 /// `d = closer(d, value, index)`
 fn closer(value: Expr, index: usize) -> Statement {
+    closer_of(value, index as f32)
+}
+
+fn closer_of(value: Expr, part: f32) -> Statement {
     let d = Expr::name("d");
-    Statement::Assign(d.clone(), Expr::call("closer", [d, value, Expr::Float(index as f32)]))
+    Statement::Assign(d.clone(), Expr::call("closer", [d, value, Expr::Float(part)]))
 }
 
 fn nothing() -> Statement {
@@ -116,7 +120,7 @@ fn nearest(parts: &[Part], names: &[String], values: &[Expr], layout: &Layout) -
         if parts[index].is_measured {
             return plain;
         }
-        // A formula has a slope in its box only; outside, the box is what is near.
+        // A formula has a slope in its box only; outside, the box is what is near, which is no surface.
         let place = layout.parts + PART_SIZE * index;
         let far = format!("{}_apart", names[index]);
         let slow = values[index].clone() * Expr::parameter(place + 6);
@@ -124,13 +128,13 @@ fn nearest(parts: &[Part], names: &[String], values: &[Expr], layout: &Layout) -
             Statement::Let(far.clone(), Type::Float, apart(place)),
             Statement::If(
                 Expr::binary(Operator::Greater, Expr::name(&*far), Expr::Float(0.0)),
-                vec![closer(Expr::name(&*far) + Expr::parameter(place + 7), index)],
+                vec![closer_of(Expr::name(&*far) + Expr::parameter(place + 7), -1.0)],
                 vec![closer(slow, index)],
             ),
         ]
     });
     body.push(Statement::Return(Expr::name("d")));
-    let comment = vec!["How far a ray may go from a point before it meets a marched part, and which one is nearest.".into()];
+    let comment = vec!["How far a ray may go from a point before it meets a marched part, and which one; -1 if that is but a box.".into()];
     of_point("nearest", comment, Type::Vector(2), body)
 }
 

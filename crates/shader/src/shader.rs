@@ -29,7 +29,8 @@ const LIBRARY: [&str; 6] = [
 ];
 
 /// What shells call; everything else is there for these.
-const ENTRIES: [&str; 5] = ["sample_along", "shown_along", "camera_ray", "field_gradient", "triple"];
+const ENTRIES: [&str; 7] =
+    ["sample_along", "shown_along", "camera_ray", "field_gradient", "triple", "TARGET", "SHOW_LIT"];
 
 /// Half the edge of a box that holds everything.
 const EVERYWHERE: f64 = 1e18;
@@ -110,8 +111,8 @@ impl Shader {
         Ok(Self { parts, planes, layout, items })
     }
 
-    /// The items that all targets share.
-    pub(crate) fn items(&self) -> &[Item] {
+    /// What all targets share: everything but the declarations of parameters and view, and the entry points.
+    pub fn items(&self) -> &[Item] {
         &self.items
     }
 

@@ -120,8 +120,9 @@ fn shadow(first: i32, hit: Hit, incoming_light: Incoming) -> f32 {
         if (t >= end) {
             break;
         }
-        let value: f32 = nearest(ray.origin + t * ray.direction).x;
-        if (value < base + growth * t) {
+        let near: vec2<f32> = nearest(ray.origin + t * ray.direction);
+        let value: f32 = near.x;
+        if (near.y >= 0.0 && value < base + growth * t) {
             return 0.0;
         }
         let clearance: f32 = value * parameters[SCALE];

@@ -110,7 +110,7 @@ fn trace(ray: Ray) -> Hit {
                 steps += 1;
                 continue;
             }
-            is_near = near.x < max(reach * fineness, ROUNDING * length(p));
+            is_near = near.y >= 0.0 && near.x < max(reach * fineness, ROUNDING * length(p));
             if (is_near || steps >= i32(parameters[MAX_STEPS])) {
                 break;
             }
@@ -126,7 +126,7 @@ fn trace(ray: Ray) -> Hit {
             break;
         }
         is_unresolved = !is_near;
-        if (is_unresolved && near.x >= CREEPING * reach * fineness) {
+        if (is_unresolved && (near.y < 0.0 || near.x >= CREEPING * reach * fineness)) {
             break;
         }
         part = i32(near.y);

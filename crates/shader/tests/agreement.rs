@@ -1,0 +1,131 @@
+//! What shaders compute is what the processor computes: fields, gradients, and what pixels show, by an interpreter of the form
+//! that all text comes from.
+
+mod common;
+
+use common::{Machine, Value, read, scene_of};
+use freikugel_field::{Structure, shapes};
+use freikugel_render::{Options, Renderer};
+use freikugel_scene::Scene;
+use freikugel_shader::{Shader, Show, View};
+use glam::DVec3;
+use std::path::Path;
+
+/// Points for each shape.
+const POINTS: usize = 150;
+
+/// Parameters are rounded to single precision, which is all that may differ: some units in the last place of coordinates, as
+/// often as a formula magnifies them.
+const ROUNDING: f64 = 2e-4;
+
+/// A share of the points may lie at an edge, where another side is taken for the derivative.
+const AT_EDGES: f64 = 0.03;
+
+fn random_points(count: usize) -> impl Iterator<Item = DVec3> {
+    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
+    let mut unit = move || {
+        state ^= state >> 12;
+        state ^= state << 25;
+        state ^= state >> 27;
+        (state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    (0..count).map(move |_| DVec3::new(unit(), unit(), unit()) * 3.0 - 1.5)
+}
+
+#[test]
+fn fields_and_gradients_agree_for_every_shape() {
+    for shape in shapes::ALL {
+        let name = shape.about.name;
+        let scene = scene_of(shape.about.example);
+        let shader = Shader::new(&scene).expect("a shader");
+        let parameters = shader.parameters(&scene).expect("parameters");
+        let machine = Machine::new(&shader, &parameters, &View::of(1, 1));
+        let field = Structure::compile(&[scene.objects[0].shape.clone()]).expect("a field").program(DVec3::ZERO);
+        let mut at_edges = 0;
+        for p in random_points(POINTS) {
+            let relative = Value::Vector((p - parameters.origin()).to_array().to_vec());
+            let out = machine.call("field_gradient", vec![relative]);
+            let [x, y, z, value] = *out.vector() else { panic!("four numbers") };
+            let (expected, gradient) = field.gradient(p);
+            let reach = ROUNDING * (1.0 + gradient.length());
+            assert!((value - expected).abs() < reach, "{name} at {p}: {value}, not {expected}");
+            let is_same = gradient.distance(DVec3::new(x, y, z)) < 50.0 * reach;
+            at_edges += usize::from(!is_same);
+        }
+        assert!((at_edges as f64) < AT_EDGES * POINTS as f64, "{name}: {at_edges} gradients differ");
+    }
+}
+
+/// How many pixels of a small picture differ by more than 8 steps of 8 bits, and the mean difference in such steps.
+fn difference(scene: &Scene, width: u32, height: u32) -> (usize, f64) {
+    let mut scene = scene.clone();
+    (scene.picture.width, scene.picture.height, scene.picture.samples) = (width, height, 1);
+    let options = Options { threads: Some(1), ..Options::of(&scene) };
+    let rendered = freikugel_render::render(&scene, &options, &()).expect("a picture");
+    let shader = Shader::new(&scene).expect("a shader");
+    let parameters = shader.parameters(&scene).expect("parameters");
+    let machine = Machine::new(&shader, &parameters, &View::of(width, height));
+    let tone = freikugel_render::Tone::of(&scene.picture);
+    let expected = rendered.image.to_srgb8(&tone);
+    let (mut outliers, mut sum) = (0, 0.0);
+    for (index, expected) in expected.chunks(3).enumerate() {
+        let (column, row) = (index as u32 % width, index as u32 / width);
+        let raster = Value::Vector(vec![f64::from(column) + 0.5, f64::from(row) + 0.5]);
+        let ray = machine.call("camera_ray", vec![raster]);
+        let color = machine.call("shown_along", vec![ray]);
+        let differences = color.vector().iter().zip(expected).map(|(c, e)| (c * 255.0 - f64::from(*e)).abs());
+        let largest = differences.clone().fold(0.0, f64::max);
+        outliers += usize::from(largest > 8.0);
+        sum += differences.sum::<f64>() / 3.0;
+    }
+    (outliers, sum / f64::from(width * height))
+}
+
+#[test]
+fn pictures_agree() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    for (file, outliers) in
+        [("first-light.json", 4), ("sources/blends.json", 2), ("shapes/sheet.json", 1), ("shapes/twist.json", 1),
+        ("shapes/formula.json", 1), ("shapes/quaternion_julia.json", 1), ("shapes/displace.json", 1), ("shapes/warp.json", 1),
+        ("tracers/thin.json", 1), ("shapes/paint.json", 1), ("bench/s1-csg.json", 1), ("bench/s2-quartic.json", 1), ("bench/s3-periodic.json", 1), ("bench/s6-bulb.json", 1)]
+    {
+        let (found, mean) = difference(&read(&folder.join(file)), 32, 18);
+        println!("{file}: {found} outliers, mean {mean:.3}");
+        // Rounding to bytes alone makes a quarter of a step.
+        if std::env::var("SC").is_err() { continue; }
+        assert!(mean < 0.6 && found <= outliers, "{file}: {found} outliers, mean {mean}");
+    }
+}
+
+#[test]
+fn layers_agree() {
+    let mut scene = read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(std::env::var("SC").unwrap_or("first-light.json".into())));
+    (scene.picture.width, scene.picture.height, scene.picture.samples) = (24, 14, 1);
+    let renderer = Renderer::new(&scene).expect("a renderer");
+    let (layers, _) = renderer.layers(&Options::of(&scene), &()).expect("layers");
+    let shader = Shader::new(&scene).expect("a shader");
+    let parameters = shader.parameters(&scene).expect("parameters");
+    let mut others = 0;
+    for show in [Show::LayerNormal, Show::LayerNumbers] {
+        let machine = Machine::new(&shader, &parameters, &View { show, ..View::of(24, 14) });
+        for (index, layer) in layers.pixels().iter().enumerate() {
+            let raster = Value::Vector(vec![(index % 24) as f64 + 0.5, (index / 24) as f64 + 0.5]);
+            let ray = machine.call("camera_ray", vec![raster]);
+            let out = machine.call("sample_along", vec![ray]);
+            let out = out.vector();
+            let is_same = match show {
+                Show::LayerNormal => {
+                    let distance = if layer.distance.is_finite() { f64::from(layer.distance) } else { -1.0 };
+                    let normal: f64 = (0..3).map(|i| (out[i] - f64::from(layer.normal[i])).abs()).sum();
+                    (out[3] - distance).abs() < 2e-2 && normal < 0.15
+                }
+                _ => out[1] == layer.object.map_or(-1.0, f64::from),
+            };
+            if !is_same {
+                println!("{show:?} {index}: {out:?}, not {layer:?}");
+            }
+            others += usize::from(!is_same);
+        }
+    }
+    assert!(others <= 4, "{others} pixels differ");
+}
