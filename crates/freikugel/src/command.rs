@@ -11,6 +11,7 @@ mod info;
 mod input;
 mod interrupt;
 mod render;
+mod shader;
 mod sheet;
 mod sweep;
 
@@ -24,6 +25,7 @@ Examples:
   freikugel render cup.json -o cup.exr --width 1920 --height 1080 --quality fine
   freikugel sweep cup.json --vary tracer.max_steps=5,10,100 -o steps.png
   freikugel compare cup.json
+  freikugel shader cup.json --target shadertoy -o cup.glsl
   freikugel check cup.json
   freikugel help shapes torus";
 
@@ -44,6 +46,8 @@ enum Command {
     Sweep(sweep::Arguments),
     /// Compare all tracers on a scene: steps, evaluations, time, wrong pixels.
     Compare(compare::Arguments),
+    /// Write a scene as a shader: WGSL, GLSL, Shadertoy, HLSL, MSL.
+    Shader(shader::Arguments),
     /// Report the mistakes of scenes, and nothing else.
     Check(SceneFiles),
     /// Show what a scene is made of: its tree, contracts, boxes, and counts.
@@ -112,6 +116,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Render(arguments) => render::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Shader(arguments) => shader::run(&arguments),
         Command::Check(files) => check::run(&files.scenes),
         Command::Info(file) => info::run(&file.scene),
         Command::Schema => {

@@ -32,7 +32,7 @@
 //! by [`Scene::check`](prelude::Scene::check), all at once and with the line of the Rust code it comes from.
 //!
 //! The layers below can be used alone: [`field`] for fields and their evaluation, [`scene`] for documents, [`mod@render`]
-//! for pictures. Only this crate promises stability.
+//! for pictures, [`shader`] for the text of shaders. Only this crate promises stability.
 
 #![forbid(unsafe_code)]
 
@@ -42,6 +42,7 @@ pub mod model;
 pub use freikugel_field as field;
 pub use freikugel_render as render;
 pub use freikugel_scene as scene;
+pub use freikugel_shader as shader;
 
 /// What most programs need: `use freikugel::prelude::*;`.
 pub mod prelude {

@@ -33,7 +33,7 @@ const HEADER: &[(&str, usize)] = &[
 ];
 
 /// Numbers of a part: the middle of its box and half its edges, what its values are multiplied with for steps, and how much
-/// its box is larger than needed.
+/// its box is larger than needed; -1 instead for parts that need no slope.
 pub(crate) const PART_SIZE: usize = 8;
 /// Numbers of a group of parts: the middle of its box and half its edges.
 pub(crate) const GROUP_SIZE: usize = 6;
@@ -56,6 +56,8 @@ const FEWEST_GROUPED: usize = 2 * GROUP;
 pub(crate) struct Layout {
     pub(crate) parts: usize,
     pub(crate) part_count: usize,
+    /// Parts that need a slope to be marched.
+    pub(crate) formula_count: usize,
     pub(crate) groups: usize,
     pub(crate) group_count: usize,
     pub(crate) planes: usize,
@@ -66,7 +68,7 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    pub(crate) fn new(part_count: usize, plane_count: usize, region_count: usize, constant_count: usize) -> Self {
+    pub(crate) fn new(part_count: usize, formula_count: usize, plane_count: usize, region_count: usize, constant_count: usize) -> Self {
         let parts: usize = HEADER.iter().map(|(_, count)| count).sum();
         let groups = parts + PART_SIZE * part_count;
         let group_count = if part_count < FEWEST_GROUPED { 0 } else { part_count.div_ceil(GROUP) };
@@ -78,6 +80,7 @@ impl Layout {
         Self {
             parts,
             part_count,
+            formula_count,
             groups,
             group_count,
             planes,
@@ -100,6 +103,7 @@ impl Layout {
             ("PARTS", self.parts),
             ("PART_SIZE", PART_SIZE),
             ("PART_COUNT", self.part_count),
+            ("FORMULA_COUNT", self.formula_count),
             ("PLANES", self.planes),
             ("PLANE_SIZE", PLANE_SIZE),
             ("PLANE_COUNT", self.plane_count),

@@ -128,13 +128,13 @@ fn nearest(parts: &[Part], names: &[String], values: &[Expr], layout: &Layout) -
             Statement::Let(far.clone(), Type::Float, apart(place)),
             Statement::If(
                 Expr::binary(Operator::Greater, Expr::name(&*far), Expr::Float(0.0)),
-                vec![closer_of(Expr::name(&*far) + Expr::parameter(place + 7), -1.0)],
+                vec![closer_of(Expr::name(&*far) + Expr::parameter(place + 7), -2.0 - index as f32)],
                 vec![closer(slow, index)],
             ),
         ]
     });
     body.push(Statement::Return(Expr::name("d")));
-    let comment = vec!["How far a ray may go from a point before it meets a marched part, and which one; -1 if that is but a box.".into()];
+    let comment = vec!["How far a ray may go from a point before it meets a marched part, and which one: -2 for the box of the first, -3 for that of the second, and so on.".into()];
     of_point("nearest", comment, Type::Vector(2), body)
 }
 

@@ -96,7 +96,8 @@ impl Shader {
             part.base = constant_count;
             constant_count += part.structure.program(DVec3::ZERO).constants().len();
         }
-        let layout = Layout::new(parts.len(), planes.len(), region_count, constant_count);
+        let formula_count = parts.iter().filter(|part| !part.is_measured).count();
+        let layout = Layout::new(parts.len(), formula_count, planes.len(), region_count, constant_count);
         parts.iter_mut().for_each(|part| part.base += layout.constants);
 
         let mut names = Names::new();
@@ -147,7 +148,7 @@ impl Shader {
                 Extent::Empty | Extent::Unbounded => None,
             };
             let (bounds, factor, margin) = match part.is_measured {
-                true => (bounds, 1.0, 0.0),
+                true => (bounds, 1.0, -1.0),
                 false => {
                     let margin = bounds.map_or(0.0, |bounds| BOX_MARGIN * bounds.size().max_element());
                     let widened = bounds.map(|bounds| Aabb { min: bounds.min - margin, max: bounds.max + margin });

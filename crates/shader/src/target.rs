@@ -29,6 +29,16 @@ impl Target {
         (Self::Hlsl, "hlsl"),
         (Self::Msl, "msl"),
     ];
+
+    /// The ending of its files.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Wgsl => ".wgsl",
+            Self::Glsl | Self::Shadertoy => ".glsl",
+            Self::Hlsl => ".compute",
+            Self::Msl => ".metal",
+        }
+    }
 }
 
 /// WebGL 2 guarantees this many vectors of uniforms; a few are left for others.

@@ -60,6 +60,8 @@ fn fields_and_gradients_agree_for_every_shape() {
 fn difference(scene: &Scene, width: u32, height: u32) -> (usize, f64) {
     let mut scene = scene.clone();
     (scene.picture.width, scene.picture.height, scene.picture.samples) = (width, height, 1);
+    if std::env::var("NOOCC").is_ok() { scene.occlusion = None; }
+    if std::env::var("NOSH").is_ok() { for l in &mut scene.lights { if let freikugel_scene::Light::Sun(s) = l { s.shadow = freikugel_scene::Shadow::None } } }
     let options = Options { threads: Some(1), ..Options::of(&scene) };
     let rendered = freikugel_render::render(&scene, &options, &()).expect("a picture");
     let shader = Shader::new(&scene).expect("a shader");
@@ -75,6 +77,7 @@ fn difference(scene: &Scene, width: u32, height: u32) -> (usize, f64) {
         let color = machine.call("shown_along", vec![ray]);
         let differences = color.vector().iter().zip(expected).map(|(c, e)| (c * 255.0 - f64::from(*e)).abs());
         let largest = differences.clone().fold(0.0, f64::max);
+        if largest > 8.0 && std::env::var("PR").is_ok() { println!("{column} {row}: {:?} {expected:?}", color.vector().iter().map(|c| (c*255.0).round()).collect::<Vec<_>>()); }
         outliers += usize::from(largest > 8.0);
         sum += differences.sum::<f64>() / 3.0;
     }
@@ -89,6 +92,7 @@ fn pictures_agree() {
         ("shapes/formula.json", 1), ("shapes/quaternion_julia.json", 1), ("shapes/displace.json", 1), ("shapes/warp.json", 1),
         ("tracers/thin.json", 1), ("shapes/paint.json", 1), ("bench/s1-csg.json", 1), ("bench/s2-quartic.json", 1), ("bench/s3-periodic.json", 1), ("bench/s6-bulb.json", 1)]
     {
+        if let Ok(only) = std::env::var("ONLY") && !file.contains(&only) { continue; }
         let (found, mean) = difference(&read(&folder.join(file)), 32, 18);
         println!("{file}: {found} outliers, mean {mean:.3}");
         // Rounding to bytes alone makes a quarter of a step.

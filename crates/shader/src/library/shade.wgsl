@@ -86,6 +86,20 @@ fn penumbra(ray: Ray, sharpness: f32) -> vec2<f32> {
     return vec2<f32>(max((-b - root) / a, 0.0), (-b + root) / a);
 }
 
+// How far the nearest surface seems to be: for formulas, whose safe steps are much shorter, by their slope there.
+fn seen_clearance(near: vec2<f32>, p: vec3<f32>) -> f32 {
+    let safe: f32 = near.x * parameters[SCALE];
+    if (FORMULA_COUNT == 0 || near.y == -1.0) {
+        return safe;
+    }
+    let part: i32 = select(i32(near.y), -2 - i32(near.y), near.y < 0.0);
+    if (parameters[PARTS + PART_SIZE * part + 7] < 0.0) {
+        return safe;
+    }
+    let value: vec4<f32> = part_gradient(part, p);
+    return max(safe, value.w / max(length(value.xyz), 1e-30));
+}
+
 // The part of a light that arrives at a hit.
 fn shadow(first: i32, hit: Hit, incoming_light: Incoming) -> f32 {
     let kind: f32 = parameters[first + 16];
@@ -128,7 +142,7 @@ fn shadow(first: i32, hit: Hit, incoming_light: Incoming) -> f32 {
         let clearance: f32 = value * parameters[SCALE];
         var step_length: f32 = clearance;
         if (is_soft) {
-            let here: f32 = sharpness * clearance / max(t, 1e-30);
+            let here: f32 = sharpness * seen_clearance(near, ray.origin + t * ray.direction) / max(t, 1e-30);
             factor = min(factor, here);
             if (factor < NEGLIGIBLE) {
                 return 0.0;

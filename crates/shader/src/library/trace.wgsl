@@ -11,7 +11,7 @@ const CREEPING: f32 = 64.0;
 const RELAXATION: f32 = 1.2;
 
 // How often a march goes on after a false hit.
-const MOST_MARCHES: i32 = 3;
+const MOST_MARCHES: i32 = 16;
 
 // What a ray met.
 struct Hit {
