@@ -27,6 +27,34 @@ struct Known {
     takes: Vec<usize>,
 }
 
+/// Where the constants of a part begin in the table of parameters.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Base {
+    /// At this place.
+    At(usize),
+    /// At the place that the function has got as `first`: it serves all parts of the same form.
+    First,
+}
+
+impl Base {
+    /// The place of a constant.
+    pub(crate) fn place(self, constant: usize) -> Expr {
+        match self {
+            Self::At(base) => Expr::Int((base + constant) as i64),
+            Self::First if constant == 0 => Expr::name("first"),
+            Self::First => Expr::name("first") + Expr::Int(constant as i64),
+        }
+    }
+
+    /// A constant.
+    pub(crate) fn parameter(self, constant: usize) -> Expr {
+        Expr::Parameter(Box::new(self.place(constant)))
+    }
+}
+
+/// The constants of a step: where those of its part begin, and which of them are its own.
+pub(crate) type Own = (Base, Range<usize>);
+
 /// What is wanted of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Want {
@@ -58,7 +86,7 @@ impl Helpers {
     }
 
     /// A call of a primitive at a point.
-    pub(crate) fn primitive(&mut self, want: Want, shape: &'static Shape, at: Expr, constants: Range<usize>) -> Expr {
+    pub(crate) fn primitive(&mut self, want: Want, shape: &'static Shape, at: Expr, constants: Own) -> Expr {
         let Kind::Primitive(table) = &shape.kind else { unreachable!("a primitive") };
         let record = |graph: &Graph, count: usize| {
             let point: [expr::Expr<'_>; 3] = graph.point();
@@ -78,7 +106,7 @@ impl Helpers {
         want: Want,
         shape: &'static Shape,
         [a, b]: [Expr; 2],
-        constants: Range<usize>,
+        constants: Own,
     ) -> Expr {
         let Kind::Combine(table) = &shape.kind else { unreachable!("a combination") };
         if table.is_minimum {
@@ -92,15 +120,15 @@ impl Helpers {
     }
 
     /// The share of the second value in a combination of two.
-    pub(crate) fn share(&mut self, shape: &'static Shape, [a, b]: [Expr; 2], constants: Range<usize>) -> Expr {
+    pub(crate) fn share(&mut self, shape: &'static Shape, [a, b]: [Expr; 2], constants: Own) -> Expr {
         let Kind::Combine(table) = &shape.kind else { unreachable!("a combination") };
-        let (passing, key) = self.passing(shape, constants.len(), "share");
+        let (passing, key) = self.passing(shape, constants.1.len(), "share");
         let known = match self.known.get(&key) {
             Some(known) => known.clone(),
             None => {
                 let graph = Graph::new();
                 let [x, y] = [0, 1].map(|input| graph.input(input));
-                let share = (table.share)(x, y, &Constants::new(x, &Slots(0), constants.len()));
+                let share = (table.share)(x, y, &Constants::new(x, &Slots(0), constants.1.len()));
                 let inputs = ["a", "b"].map(Expr::name);
                 let (mut body, mut results) = statements(&graph, &[share], &inputs, &|slot| passing.slot(slot));
                 body.push(Statement::Return(results.remove(0)));
@@ -112,7 +140,7 @@ impl Helpers {
     }
 
     /// A change of a value, or of a value with its gradient.
-    pub(crate) fn modify(&mut self, want: Want, shape: &'static Shape, from: Expr, constants: Range<usize>) -> Expr {
+    pub(crate) fn modify(&mut self, want: Want, shape: &'static Shape, from: Expr, constants: Own) -> Expr {
         let Kind::Modify(table) = &shape.kind else { unreachable!("a change of values") };
         let record = |graph: &Graph, count: usize| {
             let value = graph.input(0);
@@ -154,7 +182,7 @@ impl Helpers {
             Some(known) => known.clone(),
             None => self.value_function(want, key, values.len(), &passing, &|graph, _| record(graph), 0),
         };
-        passing.call(known, values.to_vec(), 0..0)
+        passing.call(known, values.to_vec(), (Base::First, 0..0))
     }
 
     fn of_values(
@@ -162,13 +190,13 @@ impl Helpers {
         want: Want,
         shape: &'static Shape,
         values: &[Expr],
-        constants: Range<usize>,
+        constants: Own,
         record: &dyn Fn(&Graph, usize) -> u32,
     ) -> Expr {
-        let (passing, key) = self.passing(shape, constants.len(), want.suffix());
+        let (passing, key) = self.passing(shape, constants.1.len(), want.suffix());
         let known = match self.known.get(&key) {
             Some(known) => known.clone(),
-            None => self.value_function(want, key, values.len(), &passing, record, constants.len()),
+            None => self.value_function(want, key, values.len(), &passing, record, constants.1.len()),
         };
         passing.call(known, values.to_vec(), constants)
     }
@@ -230,17 +258,17 @@ impl Helpers {
         shape: &'static Shape,
         arguments: Vec<(&'static str, Type, Expr)>,
         inputs: &[Expr],
-        constants: Range<usize>,
+        constants: Own,
         record: &dyn Fn(&Graph, usize) -> u32,
         gradient: impl Fn(&[Expr]) -> Vec<Expr>,
     ) -> Expr {
-        let (passing, key) = self.passing(shape, constants.len(), want.suffix());
+        let (passing, key) = self.passing(shape, constants.1.len(), want.suffix());
         let known = match self.known.get(&key) {
             Some(known) => known.clone(),
             None => {
                 let graph = Graph::new();
                 let _ = graph.point();
-                let result = graph.at(record(&graph, constants.len()));
+                let result = graph.at(record(&graph, constants.1.len()));
                 let values = arguments.iter().map(|(name, ty, _)| (*name, ty.clone())).collect();
                 let (ty, body, comment) = match want {
                     Want::Value => {
@@ -336,10 +364,12 @@ impl Passing {
         }
     }
 
-    fn call(&self, known: Known, mut values: Vec<Expr>, constants: Range<usize>) -> Expr {
+    fn call(&self, known: Known, mut values: Vec<Expr>, constants: Own) -> Expr {
         match self {
-            Self::Each(_) => values.extend(known.takes.iter().map(|place| Expr::parameter(constants.start + place))),
-            Self::First => values.push(Expr::Int(constants.start as i64)),
+            Self::Each(_) => {
+                values.extend(known.takes.iter().map(|place| constants.0.parameter(constants.1.start + place)));
+            }
+            Self::First => values.push(constants.0.place(constants.1.start)),
         }
         Expr::Call(known.name, values)
     }

@@ -33,8 +33,9 @@ const HEADER: &[(&str, usize)] = &[
 ];
 
 /// Numbers of a part: the middle of its box and half its edges, what its values are multiplied with for steps, and how much
-/// its box is larger than needed; -1 instead for parts that need no slope.
-pub(crate) const PART_SIZE: usize = 8;
+/// its box is larger than needed; -1 instead for parts that need no slope; the number of
+/// its form, and the place of its constants.
+pub(crate) const PART_SIZE: usize = 10;
 /// Numbers of a group of parts: the middle of its box and half its edges.
 pub(crate) const GROUP_SIZE: usize = 6;
 /// Numbers of a plane: normal, offset, whether it is a sheet, and the slope of its field.

@@ -2,7 +2,7 @@
 //!
 //! Parts are tried one after another for the nearest, so that those far away can be passed over by their boxes.
 
-use crate::helpers::{Helpers, Want, dual_statements};
+use crate::helpers::{Base, Helpers, Want, dual_statements};
 use crate::formula::statements;
 use crate::names::Names;
 use crate::tree::{Expr, Function, Statement, Type};
@@ -92,9 +92,21 @@ impl Part {
         self.outline.steps.iter().map(cost).sum()
     }
 
+    /// What tells its form apart: parts of the same form differ in their constants only. Formulas have constants of their own
+    /// in functions of their own, so that those are parts of a kind.
+    pub(crate) fn form(&self, index: usize) -> String {
+        if self.is_measured { outline_key(&self.outline, false) } else { format!("formula {index}") }
+    }
+
     /// Statements that compute its value, or value and gradient, at the point `p`, and the result.
-    pub(crate) fn value(&self, want: Want, name: &str, helpers: &mut Helpers) -> (Vec<Statement>, Expr) {
-        let mut walk = Walk::new(self, want, name, helpers);
+    pub(crate) fn value(
+        &self,
+        want: Want,
+        base: Base,
+        name: &str,
+        helpers: &mut Helpers,
+    ) -> (Vec<Statement>, Expr) {
+        let mut walk = Walk::new(self, want, base, name, helpers);
         walk.all();
         let result = self.outline.result.expect("a part is something");
         let value = walk.values[result].clone().expect("every step has a value");
@@ -111,15 +123,36 @@ impl Part {
 
     /// Statements that compute the shares of its regions at the point `p`, and one for each region.
     pub(crate) fn shares(&self, name: &str, helpers: &mut Helpers) -> (Vec<Statement>, Vec<Expr>) {
-        let mut walk = Walk::new(self, Want::Value, name, helpers);
+        let mut walk = Walk::new(self, Want::Value, Base::At(self.base), name, helpers);
         walk.all();
         walk.shares()
     }
 }
 
+/// What tells outlines apart.
+pub(crate) fn outline_key(outline: &Outline, with_regions: bool) -> String {
+    let mut key = format!("{:?}", outline.result);
+    for action in &outline.steps {
+        // Shapes are told apart by their names; their descriptors would fill pages.
+        let text = match action {
+            Action::Primitive { shape, point, at, constants, region } => {
+                let region = region.filter(|_| with_regions);
+                format!("{} {point} {at} {constants:?} {region:?}", shape.about.name)
+            }
+            Action::Combine { shape, a, b, constants } => format!("{} {a} {b} {constants:?}", shape.about.name),
+            Action::Modify { shape, from, constants } => format!("{} {from} {constants:?}", shape.about.name),
+            other => format!("{other:?}"),
+        };
+        key.push('\n');
+        key.push_str(&text);
+    }
+    key
+}
+
 struct Walk<'a> {
     part: &'a Part,
     want: Want,
+    base: Base,
     name: &'a str,
     helpers: &'a mut Helpers,
     body: Vec<Statement>,
@@ -136,7 +169,7 @@ struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    fn new(part: &'a Part, want: Want, name: &'a str, helpers: &'a mut Helpers) -> Self {
+    fn new(part: &'a Part, want: Want, base: Base, name: &'a str, helpers: &'a mut Helpers) -> Self {
         let steps = &part.outline.steps;
         let mut is_formula: Vec<bool> = Vec::with_capacity(steps.len());
         let mut reads = vec![0; steps.len()];
@@ -159,6 +192,7 @@ impl<'a> Walk<'a> {
         Self {
             part,
             want,
+            base,
             name,
             helpers,
             body: Vec::new(),
@@ -185,10 +219,6 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn place(&self, constant: usize) -> usize {
-        self.part.base + constant
-    }
-
     /// Gives a value a name made of a word and a number.
     fn bind(&mut self, word: &str, ty: Type, value: Expr) -> Expr {
         let number = self.numbers.entry(word.to_owned()).or_insert(0);
@@ -212,7 +242,7 @@ impl<'a> Walk<'a> {
 
     /// A point less three constants.
     fn moved(&self, point: usize, at: usize) -> Expr {
-        self.point(point) - triple(self.place(at))
+        self.point(point) - triple(self.base.place(at))
     }
 
     /// A value with its gradient by the coordinates of `point`, seen from the first point.
@@ -230,17 +260,16 @@ impl<'a> Walk<'a> {
         if self.is_formula[index] {
             return;
         }
-        let shifted = |constants: &std::ops::Range<usize>, base: usize| base + constants.start..base + constants.end;
-        let (want, base) = (self.want, self.part.base);
+        let (want, base) = (self.want, self.base);
         let value = match &self.part.outline.steps[index] {
             Action::Point => {
                 self.points[index] = Some(Expr::name("p"));
                 return;
             }
             &Action::Affine { from, constants } => {
-                let matrix = Expr::call("matrix", [Expr::Int(self.place(constants) as i64)]);
+                let matrix = Expr::call("matrix", [base.place(constants)]);
                 self.maps[index] = Some((from, matrix.clone()));
-                let point = matrix * self.point(from) + triple(self.place(constants + 9));
+                let point = matrix * self.point(from) + triple(base.place(constants + 9));
                 self.set_point(index, point);
                 return;
             }
@@ -250,22 +279,22 @@ impl<'a> Walk<'a> {
             }
             Action::Primitive { shape, point, at, constants, .. } => {
                 let at = self.moved(*point, *at);
-                let value = self.helpers.primitive(want, shape, at, shifted(constants, base));
+                let value = self.helpers.primitive(want, shape, at, (base, constants.clone()));
                 let value = self.seen(value, *point);
                 self.bind(shape.about.name, self.ty(), value)
             }
             Action::Combine { shape, a, b, constants } => {
                 let values = [self.read(*a), self.read(*b)];
-                let value = self.helpers.combine(want, shape, values, shifted(constants, base));
+                let value = self.helpers.combine(want, shape, values, (base, constants.clone()));
                 self.bind(shape.about.name, self.ty(), value)
             }
             Action::Modify { shape, from, constants } => {
                 let from = self.read(*from);
-                let value = self.helpers.modify(want, shape, from, shifted(constants, base));
+                let value = self.helpers.modify(want, shape, from, (base, constants.clone()));
                 self.bind(shape.about.name, self.ty(), value)
             }
             &Action::Scale { from, factor } => {
-                let value = self.read(from) * Expr::parameter(self.place(factor));
+                let value = self.read(from) * base.parameter(factor);
                 self.bind("scaled", self.ty(), value)
             }
             &Action::Surface { from, .. } => self.read(from),
@@ -302,8 +331,8 @@ impl<'a> Walk<'a> {
         let graph = Graph::new();
         let results = self.record(&graph, &[root]);
         let inputs: Vec<Expr> = ["x", "y", "z"].map(|axis| Expr::name("p").member(axis)).into();
-        let base = self.part.base;
-        let slot = move |slot: usize| Expr::parameter(base + slot);
+        let base = Base::At(self.part.base);
+        let slot = move |slot: usize| base.parameter(slot);
         let (suffix, ty, body) = match self.want {
             Want::Value => {
                 let (mut body, mut results) = statements(&graph, &results, &inputs, &slot);
@@ -330,8 +359,8 @@ impl<'a> Walk<'a> {
         let graph = Graph::new();
         let results = self.record(&graph, &from);
         let inputs: Vec<Expr> = ["x", "y", "z"].map(|axis| Expr::name("p").member(axis)).into();
-        let base = self.part.base;
-        let slot = move |slot: usize| Expr::parameter(base + slot);
+        let base = Base::At(self.part.base);
+        let slot = move |slot: usize| base.parameter(slot);
         let (mut body, parts) = statements(&graph, &results, &inputs, &slot);
         body.push(Statement::Return(Expr::vector(parts)));
         let name = self.define("warp", index, Type::Vector(3), body);
@@ -411,7 +440,7 @@ impl<'a> Walk<'a> {
 
     fn shares(mut self) -> (Vec<Statement>, Vec<Expr>) {
         let steps = &self.part.outline.steps;
-        let base = self.part.base;
+        let base = self.base;
         let mut weights: Vec<Option<Expr>> = vec![None; steps.len()];
         let mut sums: Vec<Option<Expr>> = vec![None; self.part.regions.len()];
         weights[self.part.outline.result.expect("a part is something")] = Some(Expr::Float(1.0));
@@ -424,8 +453,7 @@ impl<'a> Walk<'a> {
             match &steps[index] {
                 Action::Combine { shape, a, b, constants } => {
                     let values = [*a, *b].map(|step| self.values[step].clone().expect("a value"));
-                    let constants = base + constants.start..base + constants.end;
-                    let share = self.helpers.share(shape, values, constants);
+                    let share = self.helpers.share(shape, values, (base, constants.clone()));
                     let share = if weight == Expr::Float(1.0) { share } else { weight.clone() * share };
                     let second = self.bind("share", Type::Float, share);
                     weights[*a] = Some(self.bind("rest", Type::Float, weight - second.clone()));
@@ -444,8 +472,8 @@ impl<'a> Walk<'a> {
 }
 
 /// Three parameters as a vector.
-pub(crate) fn triple(place: usize) -> Expr {
-    Expr::call("triple", [Expr::Int(place as i64)])
+fn triple(place: Expr) -> Expr {
+    Expr::call("triple", [place])
 }
 
 impl Helpers {

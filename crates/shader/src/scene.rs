@@ -1,7 +1,7 @@
 //! From a scene to the functions that only its own shader has: `nearest`, `whole`, `part_gradient`, `surface_at`, and one for
 //! each part that is more than a call.
 
-use crate::helpers::{Helpers, Want};
+use crate::helpers::{Base, Helpers, Want};
 use crate::layout::{GROUP, GROUP_SIZE, Layout, PART_SIZE, REGION_SIZE};
 use crate::part::Part;
 use crate::tree::{Expr, Function, Item, Operator, Statement, Type};
@@ -9,15 +9,33 @@ use crate::tree::{Expr, Function, Item, Operator, Statement, Type};
 /// A part that takes more simple operations than this is passed over by its box, which takes about ten.
 const CHEAP: usize = 40;
 
-/// All functions that depend on the scene.
-pub(crate) fn items(parts: &[Part], layout: &Layout, mut helpers: Helpers) -> Vec<Item> {
+/// For each part the number of its form, in the order in which forms appear.
+pub(crate) fn kinds(parts: &[Part]) -> Vec<usize> {
+    let mut forms: Vec<String> = Vec::new();
+    let kind = |(index, part): (usize, &Part)| {
+        let form = part.form(index);
+        forms.iter().position(|own| *own == form).unwrap_or_else(|| {
+            forms.push(form);
+            forms.len() - 1
+        })
+    };
+    parts.iter().enumerate().map(kind).collect()
+}
+
+/// All functions that depend on the scene. Values, which take all the time, read constants at known places; gradients are
+/// written once for each form.
+pub(crate) fn items(parts: &[Part], kinds: &[usize], layout: &Layout, mut helpers: Helpers) -> Vec<Item> {
     let names: Vec<String> = parts.iter().map(|part| helpers.names.make(&part.source.name)).collect();
     let mut own = Vec::new();
     let mut values = Vec::new();
     let mut gradients = Vec::new();
     for (part, name) in parts.iter().zip(&names) {
         values.push(one(part, Want::Value, name, &mut helpers, &mut own));
-        gradients.push(one(part, Want::Gradient, name, &mut helpers, &mut own));
+    }
+    for ((part, name), &kind) in parts.iter().zip(&names).zip(kinds) {
+        if kind == gradients.len() {
+            gradients.push(one(part, Want::Gradient, name, &mut helpers, &mut own));
+        }
     }
     let surfaces = surface_at(parts, &names, layout, &mut helpers, &mut own);
     let has_steps = parts.iter().any(|part| !part.is_measured);
@@ -30,7 +48,11 @@ pub(crate) fn items(parts: &[Part], layout: &Layout, mut helpers: Helpers) -> Ve
 /// What computes a part: the expression itself if it is but a call, otherwise a call of a function for it.
 fn one(part: &Part, want: Want, name: &str, helpers: &mut Helpers, own: &mut Vec<Function>) -> Expr {
     let before = helpers.functions.len();
-    let (mut body, result) = part.value(want, name, helpers);
+    let base = match want {
+        Want::Gradient if part.is_measured => Base::First,
+        Want::Value | Want::Gradient => Base::At(part.base),
+    };
+    let (mut body, result) = part.value(want, base, name, helpers);
     if body.is_empty() {
         return result;
     }
@@ -51,8 +73,14 @@ fn one(part: &Part, want: Want, name: &str, helpers: &mut Helpers, own: &mut Vec
         Want::Value => vec![format!("The distance from {:?}.", part.source.name)],
         Want::Gradient => Vec::new(),
     };
-    own.push(of_point(&name, comment, result, body));
-    Expr::call(name, [Expr::name("p")])
+    let mut function = of_point(&name, comment, result, body);
+    let mut arguments = vec![Expr::name("p")];
+    if matches!(base, Base::First) {
+        function.arguments.push(("first".into(), Type::Int));
+        arguments.push(Expr::name("first"));
+    }
+    own.push(function);
+    Expr::Call(name, arguments)
 }
 
 fn of_point(name: &str, comment: Vec<String>, result: Type, body: Vec<Statement>) -> Function {
@@ -159,13 +187,18 @@ fn is_part(index: usize) -> Expr {
 }
 
 fn part_gradient(gradients: &[Expr]) -> Function {
-    let mut body: Vec<Statement> = gradients
-        .iter()
-        .enumerate()
-        .map(|(index, gradient)| {
-            Statement::If(is_part(index), vec![Statement::Return(gradient.clone())], Vec::new())
-        })
-        .collect();
+    let number = |place: i64| {
+        let at = Expr::name("PARTS") + Expr::name("PART_SIZE") * Expr::name("part") + Expr::Int(place);
+        Expr::Make(Type::Int, vec![Expr::Parameter(Box::new(at))])
+    };
+    let mut body = vec![
+        Statement::Let("form".into(), Type::Int, number(8)),
+        Statement::Let("first".into(), Type::Int, number(9)),
+    ];
+    body.extend(gradients.iter().enumerate().map(|(index, gradient)| {
+        let is_it = Expr::binary(Operator::Equal, Expr::name("form"), Expr::Int(index as i64));
+        Statement::If(is_it, vec![Statement::Return(gradient.clone())], Vec::new())
+    }));
     body.push(Statement::Return(Expr::Make(Type::Vector(4), vec![Expr::Float(0.0)])));
     Function {
         name: "part_gradient".into(),

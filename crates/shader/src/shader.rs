@@ -5,12 +5,12 @@ use crate::layout::{GROUP, GROUP_SIZE, LIGHT_SIZE, Layout, PART_SIZE, PLANE_SIZE
 use crate::module::needed;
 use crate::names::Names;
 use crate::parse::parse;
-use crate::part::{Part, Source, sources};
+use crate::part::{Part, Source, outline_key, sources};
 use crate::scene;
 use crate::tree::Item;
 use freikugel_field::shape::ExactForm;
 use freikugel_field::{
-    Aabb, Action, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Outline, Structure, find_extent,
+    Aabb, Action, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Structure, find_extent,
 };
 use freikugel_render::plan::{Place, PlannedLight, PlannedObject, PlannedShadow};
 use freikugel_render::{Plan, PrepareError};
@@ -48,6 +48,8 @@ pub struct Shader {
     parts: Vec<Part>,
     planes: Vec<Plane>,
     layout: Layout,
+    /// Which form each part has.
+    kinds: Vec<usize>,
     items: Vec<Item>,
 }
 
@@ -107,9 +109,10 @@ impl Shader {
         ["nearest", "whole", "part_gradient", "field_gradient", "surface_at"].iter().for_each(|name| names.take(name));
         let mut all = layout.items();
         all.extend(library);
-        all.extend(scene::items(&parts, &layout, Helpers::new(names)));
+        let kinds = scene::kinds(&parts);
+        all.extend(scene::items(&parts, &kinds, &layout, Helpers::new(names)));
         let items = needed(&all, &ENTRIES);
-        Ok(Self { parts, planes, layout, items })
+        Ok(Self { parts, planes, layout, kinds, items })
     }
 
     /// What all targets share: everything but the declarations of parameters and view, and the entry points.
@@ -158,7 +161,8 @@ impl Shader {
             };
             let place = self.layout.parts + PART_SIZE * index;
             write_box(&mut numbers[place..], bounds, plan.origin);
-            write(&mut numbers[place + 6..], &[factor, margin]);
+            let kind = self.kinds[index] as f64;
+            write(&mut numbers[place + 6..], &[factor, margin, kind, self.parts[index].base as f64]);
             boxes.push(bounds);
             for (region, &place) in part.structure.regions().iter().zip(&self.parts[index].regions) {
                 self.write_region(&mut numbers, place, part.source.object, region.material, scene, &plan);
@@ -194,7 +198,7 @@ impl Shader {
             let name = scene.objects.get(object).map_or("", |object| object.name.as_str());
             Err(ShaderError::OtherScene(name.to_owned()))
         };
-        let form = |part: &Part| (part.source.object, part.is_measured, outline_key(&part.outline));
+        let form = |part: &Part| (part.source.object, part.is_measured, outline_key(&part.outline, true));
         if parts.len() != self.parts.len() || planes.len() != self.planes.len() {
             return other(parts.len());
         }
@@ -312,25 +316,6 @@ fn part(
     let is_measured =
         !outline.steps.iter().any(|action| matches!(action, Action::Coordinate { .. } | Action::Literal { .. }));
     Ok(Part { source, structure, outline, base: 0, regions: Vec::new(), is_measured })
-}
-
-/// What tells outlines apart.
-fn outline_key(outline: &Outline) -> String {
-    let mut key = format!("{:?}", outline.result);
-    for action in &outline.steps {
-        // Shapes are told apart by their names; their descriptors would fill pages.
-        let text = match action {
-            Action::Primitive { shape, point, at, constants, region } => {
-                format!("{} {point} {at} {constants:?} {region:?}", shape.about.name)
-            }
-            Action::Combine { shape, a, b, constants } => format!("{} {a} {b} {constants:?}", shape.about.name),
-            Action::Modify { shape, from, constants } => format!("{} {from} {constants:?}", shape.about.name),
-            other => format!("{other:?}"),
-        };
-        key.push('\n');
-        key.push_str(&text);
-    }
-    key
 }
 
 /// A bound of a part's slope where it is marched, or a guess and a notice.

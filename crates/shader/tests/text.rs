@@ -88,7 +88,7 @@ proptest! {
 #[test]
 fn another_structure_is_refused() {
     let shader = Shader::new(&scene_of(r#"{ "sphere": { "radius": 1 } }"#)).expect("a shader");
-    for other in [r#"{ "box": { "size": 1 } }"#, r#"{ "sheet": {} }"#, r#"{ "scale": { "by": 2, "shape": { "sphere": { "radius": 1 } } } }"#] {
+    for other in [r#"{ "box": { "size": 1 } }"#, r#"{ "sheet": {} }"#, r#"{ "scale": { "factor": 2, "shape": { "sphere": { "radius": 1 } } } }"#] {
         let error = shader.parameters(&scene_of(other)).expect_err("another structure");
         assert!(matches!(error, ShaderError::OtherScene(_)), "{error}");
     }
