@@ -135,10 +135,7 @@ impl Program {
     /// What its steps compute.
     pub fn outline(&self) -> Outline {
         let steps = &self.whole.steps;
-        Outline {
-            steps: steps.list.iter().map(Action::of).collect(),
-            result: steps.result.map(StepId::index),
-        }
+        Outline { steps: steps.list.iter().map(Action::of).collect(), result: steps.result.map(StepId::index) }
     }
 
     /// The constants of all steps in single precision, for points relative to [`Program::origin`].

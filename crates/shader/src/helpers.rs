@@ -52,8 +52,20 @@ impl Base {
     }
 }
 
-/// The constants of a step: where those of its part begin, and which of them are its own.
-pub(crate) type Own = (Base, Range<usize>);
+/// The constants of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Own {
+    base: Base,
+    first: usize,
+    count: usize,
+}
+
+impl Own {
+    /// Some of the constants of a part that begin at `base`.
+    pub(crate) fn new(base: Base, range: &Range<usize>) -> Self {
+        Self { base, first: range.start, count: range.len() }
+    }
+}
 
 /// What is wanted of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,13 +113,7 @@ impl Helpers {
     }
 
     /// A combination of two values, or of two values with their gradients.
-    pub(crate) fn combine(
-        &mut self,
-        want: Want,
-        shape: &'static Shape,
-        [a, b]: [Expr; 2],
-        constants: Own,
-    ) -> Expr {
+    pub(crate) fn combine(&mut self, want: Want, shape: &'static Shape, [a, b]: [Expr; 2], constants: Own) -> Expr {
         let Kind::Combine(table) = &shape.kind else { unreachable!("a combination") };
         if table.is_minimum {
             return Expr::call(if want == Want::Value { "min" } else { "nearer" }, [a, b]);
@@ -122,13 +128,13 @@ impl Helpers {
     /// The share of the second value in a combination of two.
     pub(crate) fn share(&mut self, shape: &'static Shape, [a, b]: [Expr; 2], constants: Own) -> Expr {
         let Kind::Combine(table) = &shape.kind else { unreachable!("a combination") };
-        let (passing, key) = self.passing(shape, constants.1.len(), "share");
+        let (passing, key) = self.passing(shape, constants.count, "share");
         let known = match self.known.get(&key) {
             Some(known) => known.clone(),
             None => {
                 let graph = Graph::new();
                 let [x, y] = [0, 1].map(|input| graph.input(input));
-                let share = (table.share)(x, y, &Constants::new(x, &Slots(0), constants.1.len()));
+                let share = (table.share)(x, y, &Constants::new(x, &Slots(0), constants.count));
                 let inputs = ["a", "b"].map(Expr::name);
                 let (mut body, mut results) = statements(&graph, &[share], &inputs, &|slot| passing.slot(slot));
                 body.push(Statement::Return(results.remove(0)));
@@ -182,7 +188,7 @@ impl Helpers {
             Some(known) => known.clone(),
             None => self.value_function(want, key, values.len(), &passing, &|graph, _| record(graph), 0),
         };
-        passing.call(known, values.to_vec(), (Base::First, 0..0))
+        passing.call(known, values.to_vec(), Own::new(Base::First, &(0..0)))
     }
 
     fn of_values(
@@ -193,10 +199,10 @@ impl Helpers {
         constants: Own,
         record: &dyn Fn(&Graph, usize) -> u32,
     ) -> Expr {
-        let (passing, key) = self.passing(shape, constants.1.len(), want.suffix());
+        let (passing, key) = self.passing(shape, constants.count, want.suffix());
         let known = match self.known.get(&key) {
             Some(known) => known.clone(),
-            None => self.value_function(want, key, values.len(), &passing, record, constants.1.len()),
+            None => self.value_function(want, key, values.len(), &passing, record, constants.count),
         };
         passing.call(known, values.to_vec(), constants)
     }
@@ -229,8 +235,7 @@ impl Helpers {
                 let inputs: Vec<Expr> = letters.iter().map(|&letter| Expr::name(letter).member("w")).collect();
                 let derivatives = Graph::new();
                 let dual: Dual<expr::Expr<'_>, 2> = graph.differentiate(&[result], &derivatives).remove(0);
-                let wanted: Vec<expr::Expr<'_>> =
-                    dual.gradient[..count].iter().copied().chain([dual.value]).collect();
+                let wanted: Vec<expr::Expr<'_>> = dual.gradient[..count].iter().copied().chain([dual.value]).collect();
                 let (mut body, mut results) = statements(&derivatives, &wanted, &inputs, &slot);
                 let value = results.pop().expect("the value was wanted");
                 let sum = letters.iter().zip(results).filter_map(|(&letter, by)| {
@@ -262,18 +267,17 @@ impl Helpers {
         record: &dyn Fn(&Graph, usize) -> u32,
         gradient: impl Fn(&[Expr]) -> Vec<Expr>,
     ) -> Expr {
-        let (passing, key) = self.passing(shape, constants.1.len(), want.suffix());
+        let (passing, key) = self.passing(shape, constants.count, want.suffix());
         let known = match self.known.get(&key) {
             Some(known) => known.clone(),
             None => {
                 let graph = Graph::new();
                 let _ = graph.point();
-                let result = graph.at(record(&graph, constants.1.len()));
+                let result = graph.at(record(&graph, constants.count));
                 let values = arguments.iter().map(|(name, ty, _)| (*name, ty.clone())).collect();
                 let (ty, body, comment) = match want {
                     Want::Value => {
-                        let (mut body, mut results) =
-                            statements(&graph, &[result], inputs, &|slot| passing.slot(slot));
+                        let (mut body, mut results) = statements(&graph, &[result], inputs, &|slot| passing.slot(slot));
                         body.push(Statement::Return(results.remove(0)));
                         (Type::Float, body, vec![shape.about.summary.to_owned()])
                     }
@@ -367,9 +371,9 @@ impl Passing {
     fn call(&self, known: Known, mut values: Vec<Expr>, constants: Own) -> Expr {
         match self {
             Self::Each(_) => {
-                values.extend(known.takes.iter().map(|place| constants.0.parameter(constants.1.start + place)));
+                values.extend(known.takes.iter().map(|place| constants.base.parameter(constants.first + place)));
             }
-            Self::First => values.push(constants.0.place(constants.1.start)),
+            Self::First => values.push(constants.base.place(constants.first)),
         }
         Expr::Call(known.name, values)
     }
@@ -418,9 +422,8 @@ fn constant_names(shape: &Shape, count: usize) -> Vec<String> {
     ["p", "a", "b", "first"].into_iter().for_each(|name| names.take(name));
     let name = |place: usize| {
         let known = (constants.len() == count).then(|| constants[place]);
-        let find = |factor: f64| {
-            known.and_then(|own| sample.iter().position(|number| number * factor == own && own != 0.0))
-        };
+        let find =
+            |factor: f64| known.and_then(|own| sample.iter().position(|number| number * factor == own && own != 0.0));
         match (find(1.0), find(0.5)) {
             (Some(at), _) => labels[at].clone(),
             (_, Some(at)) => format!("half_{}", labels[at]),

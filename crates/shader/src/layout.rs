@@ -69,7 +69,13 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    pub(crate) fn new(part_count: usize, formula_count: usize, plane_count: usize, region_count: usize, constant_count: usize) -> Self {
+    pub(crate) fn new(
+        part_count: usize,
+        formula_count: usize,
+        plane_count: usize,
+        region_count: usize,
+        constant_count: usize,
+    ) -> Self {
         let parts: usize = HEADER.iter().map(|(_, count)| count).sum();
         let groups = parts + PART_SIZE * part_count;
         let group_count = if part_count < FEWEST_GROUPED { 0 } else { part_count.div_ceil(GROUP) };
@@ -78,18 +84,7 @@ impl Layout {
         // Aligned, so that vectors of four hold what belongs together more often.
         let constants = (regions + REGION_SIZE * region_count).next_multiple_of(4);
         let lights = (constants + constant_count).next_multiple_of(4);
-        Self {
-            parts,
-            part_count,
-            formula_count,
-            groups,
-            group_count,
-            planes,
-            plane_count,
-            regions,
-            constants,
-            lights,
-        }
+        Self { parts, part_count, formula_count, groups, group_count, planes, plane_count, regions, constants, lights }
     }
 
     /// The places and sizes as constants of the module.
@@ -114,7 +109,8 @@ impl Layout {
             ("LIGHT_SIZE", LIGHT_SIZE),
         ]);
         let constant = |(index, (name, place)): (usize, (&str, usize))| {
-            let comment = if index == 0 { vec!["Places in the table of parameters, and counts.".to_owned()] } else { Vec::new() };
+            let comment =
+                if index == 0 { vec!["Places in the table of parameters, and counts.".to_owned()] } else { Vec::new() };
             Item::Constant(name.into(), Type::Int, Expr::Int(place as i64), comment)
         };
         places.into_iter().enumerate().map(constant).collect()

@@ -41,8 +41,8 @@ enum Token {
 
 /// Longer signs before their beginnings.
 const SIGNS: &[&str] = &[
-    "->", "<=", ">=", "==", "!=", "&&", "||", "++", "+=", "-=", "*=", "/=", "+", "-", "*", "/", "%", "<", ">", "=", "!",
-    "(", ")", "{", "}", "[", "]", ",", ";", ":", ".",
+    "->", "<=", ">=", "==", "!=", "&&", "||", "++", "+=", "-=", "*=", "/=", "+", "-", "*", "/", "%", "<", ">", "=",
+    "!", "(", ")", "{", "}", "[", "]", ",", ";", ":", ".",
 ];
 
 fn tokens(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
@@ -51,9 +51,7 @@ fn tokens(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
         let number = index + 1;
         let mut rest = line.trim_start();
         while !rest.is_empty() {
-            let taken = |rest: &str, is_part: fn(char) -> bool| {
-                rest.find(|c| !is_part(c)).unwrap_or(rest.len())
-            };
+            let taken = |rest: &str, is_part: fn(char) -> bool| rest.find(|c| !is_part(c)).unwrap_or(rest.len());
             let first = rest.chars().next().unwrap_or(' ');
             let (token, length) = if let Some(comment) = rest.strip_prefix("//") {
                 (Token::Comment(comment.trim().into()), rest.len())
@@ -251,8 +249,7 @@ impl Parser {
             return self.count();
         }
         let place = self.expression(0)?;
-        let operators =
-            [("+=", Operator::Add), ("-=", Operator::Sub), ("*=", Operator::Mul), ("/=", Operator::Div)];
+        let operators = [("+=", Operator::Add), ("-=", Operator::Sub), ("*=", Operator::Mul), ("/=", Operator::Div)];
         for (sign, op) in operators {
             if self.takes(sign) {
                 let value = Expr::binary(op, place.clone(), self.expression(0)?);
@@ -375,8 +372,8 @@ impl Parser {
                 "select" => {
                     self.next += 1;
                     let arguments = self.arguments()?;
-                    let [no, yes, condition] = <[Expr; 3]>::try_from(arguments)
-                        .or_else(|_| self.fault("`select` takes three values"))?;
+                    let [no, yes, condition] =
+                        <[Expr; 3]>::try_from(arguments).or_else(|_| self.fault("`select` takes three values"))?;
                     Ok(Expr::select(condition, yes, no))
                 }
                 _ => {

@@ -2,15 +2,15 @@
 //!
 //! Parts are tried one after another for the nearest, so that those far away can be passed over by their boxes.
 
-use crate::helpers::{Base, Helpers, Want, dual_statements};
 use crate::formula::statements;
+use crate::helpers::{Base, Helpers, Own, Want, dual_statements};
 use crate::names::Names;
 use crate::tree::{Expr, Function, Statement, Type};
 use freikugel_field::expr::{self, Graph, Slots};
-use freikugel_field::{Action, Field, Kind, MaterialId, Outline, Scalar, Structure};
 use freikugel_field::field::Origin;
 use freikugel_field::formula::Binary;
 use freikugel_field::shapes;
+use freikugel_field::{Action, Field, Kind, MaterialId, Outline, Scalar, Structure};
 use std::collections::HashMap;
 
 /// A field of its own among those of a scene.
@@ -99,13 +99,7 @@ impl Part {
     }
 
     /// Statements that compute its value, or value and gradient, at the point `p`, and the result.
-    pub(crate) fn value(
-        &self,
-        want: Want,
-        base: Base,
-        name: &str,
-        helpers: &mut Helpers,
-    ) -> (Vec<Statement>, Expr) {
+    pub(crate) fn value(&self, want: Want, base: Base, name: &str, helpers: &mut Helpers) -> (Vec<Statement>, Expr) {
         let mut walk = Walk::new(self, want, base, name, helpers);
         walk.all();
         let result = self.outline.result.expect("a part is something");
@@ -279,18 +273,18 @@ impl<'a> Walk<'a> {
             }
             Action::Primitive { shape, point, at, constants, .. } => {
                 let at = self.moved(*point, *at);
-                let value = self.helpers.primitive(want, shape, at, (base, constants.clone()));
+                let value = self.helpers.primitive(want, shape, at, Own::new(base, constants));
                 let value = self.seen(value, *point);
                 self.bind(shape.about.name, self.ty(), value)
             }
             Action::Combine { shape, a, b, constants } => {
                 let values = [self.read(*a), self.read(*b)];
-                let value = self.helpers.combine(want, shape, values, (base, constants.clone()));
+                let value = self.helpers.combine(want, shape, values, Own::new(base, constants));
                 self.bind(shape.about.name, self.ty(), value)
             }
             Action::Modify { shape, from, constants } => {
                 let from = self.read(*from);
-                let value = self.helpers.modify(want, shape, from, (base, constants.clone()));
+                let value = self.helpers.modify(want, shape, from, Own::new(base, constants));
                 self.bind(shape.about.name, self.ty(), value)
             }
             &Action::Scale { from, factor } => {
@@ -453,7 +447,7 @@ impl<'a> Walk<'a> {
             match &steps[index] {
                 Action::Combine { shape, a, b, constants } => {
                     let values = [*a, *b].map(|step| self.values[step].clone().expect("a value"));
-                    let share = self.helpers.share(shape, values, (base, constants.clone()));
+                    let share = self.helpers.share(shape, values, Own::new(base, constants));
                     let share = if weight == Expr::Float(1.0) { share } else { weight.clone() * share };
                     let second = self.bind("share", Type::Float, share);
                     weights[*a] = Some(self.bind("rest", Type::Float, weight - second.clone()));

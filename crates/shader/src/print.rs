@@ -154,9 +154,7 @@ fn written(language: &dyn Language, expr: &Expr) -> (String, u8) {
             (language.parameter(place), ATOM)
         }
         Expr::Member(of, name) => (format!("{}.{name}", operand(language, of, ATOM)), ATOM),
-        Expr::Index(of, place) => {
-            (format!("{}[{}]", operand(language, of, ATOM), expression(language, place)), ATOM)
-        }
+        Expr::Index(of, place) => (format!("{}[{}]", operand(language, of, ATOM), expression(language, place)), ATOM),
         Expr::Negate(a) => (format!("-{}", operand(language, a, ATOM)), SIGN),
         Expr::Not(a) => (format!("!{}", operand(language, a, ATOM)), SIGN),
         Expr::Binary(op, a, b) => {

@@ -108,8 +108,7 @@ fn apart(place: usize) -> Expr {
 
 /// The nearest of all parts, one after another, with statements for each.
 fn search(parts: &[Part], layout: &Layout, statement: impl Fn(usize) -> Vec<Statement>) -> Vec<Statement> {
-    let is_nearer =
-        |place: usize| Expr::binary(Operator::Less, apart(place), Expr::name("d").member("x"));
+    let is_nearer = |place: usize| Expr::binary(Operator::Less, apart(place), Expr::name("d").member("x"));
     let mut body = vec![nothing()];
     let mut group = Vec::new();
     for (index, part) in parts.iter().enumerate() {
@@ -191,10 +190,8 @@ fn part_gradient(gradients: &[Expr]) -> Function {
         let at = Expr::name("PARTS") + Expr::name("PART_SIZE") * Expr::name("part") + Expr::Int(place);
         Expr::Make(Type::Int, vec![Expr::Parameter(Box::new(at))])
     };
-    let mut body = vec![
-        Statement::Let("form".into(), Type::Int, number(8)),
-        Statement::Let("first".into(), Type::Int, number(9)),
-    ];
+    let mut body =
+        vec![Statement::Let("form".into(), Type::Int, number(8)), Statement::Let("first".into(), Type::Int, number(9))];
     body.extend(gradients.iter().enumerate().map(|(index, gradient)| {
         let is_it = Expr::binary(Operator::Equal, Expr::name("form"), Expr::Int(index as i64));
         Statement::If(is_it, vec![Statement::Return(gradient.clone())], Vec::new())

@@ -9,9 +9,7 @@ use crate::part::{Part, Source, outline_key, sources};
 use crate::scene;
 use crate::tree::Item;
 use freikugel_field::shape::ExactForm;
-use freikugel_field::{
-    Aabb, Action, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Structure, find_extent,
-};
+use freikugel_field::{Aabb, Action, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Structure, find_extent};
 use freikugel_render::plan::{Place, PlannedLight, PlannedObject, PlannedShadow};
 use freikugel_render::{Plan, PrepareError};
 use freikugel_scene::{Background, Camera, FovAxis, Light, Material, Model, Overbright, Pattern, Projection, Scene};
@@ -103,8 +101,7 @@ impl Shader {
         parts.iter_mut().for_each(|part| part.base += layout.constants);
 
         let mut names = Names::new();
-        let library: Vec<Item> =
-            LIBRARY.iter().flat_map(|text| parse(text).expect("the library is sound")).collect();
+        let library: Vec<Item> = LIBRARY.iter().flat_map(|text| parse(text).expect("the library is sound")).collect();
         library.iter().for_each(|item| names.take(item.name()));
         ["nearest", "whole", "part_gradient", "field_gradient", "surface_at"].iter().for_each(|name| names.take(name));
         let mut all = layout.items();
@@ -306,10 +303,7 @@ fn dissect(scene: &Scene, plan: &Plan) -> Result<(Vec<Part>, Vec<Plane>), Shader
     Ok((parts, planes))
 }
 
-fn part(
-    source: Source,
-    compile: impl Fn(&Field) -> Result<Structure, ShaderError>,
-) -> Result<Part, ShaderError> {
+fn part(source: Source, compile: impl Fn(&Field) -> Result<Structure, ShaderError>) -> Result<Part, ShaderError> {
     let structure = compile(&source.field)?;
     let outline = structure.program(DVec3::ZERO).outline();
     // What is computed from coordinates other than by primitives has no scale of its own.
@@ -448,7 +442,9 @@ impl fmt::Display for ShaderError {
             Self::OtherScene(object) => {
                 write!(f, "the scene differs from the shader's in more than numbers, first at object {object:?}")
             }
-            Self::Invalid(message) => write!(f, "the shader did not pass validation, which is a mistake of Freikugel: {message}"),
+            Self::Invalid(message) => {
+                write!(f, "the shader did not pass validation, which is a mistake of Freikugel: {message}")
+            }
         }
     }
 }

@@ -140,8 +140,8 @@ impl Shader {
 
 /// A module that an independent judge accepts.
 fn validated(text: &str) -> Result<(naga::Module, naga::valid::ModuleInfo), ShaderError> {
-    let module = naga::front::wgsl::parse_str(text)
-        .map_err(|error| ShaderError::Invalid(error.emit_to_string(text)))?;
+    let module =
+        naga::front::wgsl::parse_str(text).map_err(|error| ShaderError::Invalid(error.emit_to_string(text)))?;
     let flags = naga::valid::ValidationFlags::all();
     let info = naga::valid::Validator::new(flags, naga::valid::Capabilities::empty())
         .validate(&module)

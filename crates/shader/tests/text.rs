@@ -88,7 +88,11 @@ proptest! {
 #[test]
 fn another_structure_is_refused() {
     let shader = Shader::new(&scene_of(r#"{ "sphere": { "radius": 1 } }"#)).expect("a shader");
-    for other in [r#"{ "box": { "size": 1 } }"#, r#"{ "sheet": {} }"#, r#"{ "scale": { "factor": 2, "shape": { "sphere": { "radius": 1 } } } }"#] {
+    for other in [
+        r#"{ "box": { "size": 1 } }"#,
+        r#"{ "sheet": {} }"#,
+        r#"{ "scale": { "factor": 2, "shape": { "sphere": { "radius": 1 } } } }"#,
+    ] {
         let error = shader.parameters(&scene_of(other)).expect_err("another structure");
         assert!(matches!(error, ShaderError::OtherScene(_)), "{error}");
     }
@@ -164,5 +168,9 @@ fn texts_read_well() {
         { "paint": { "material": "clay", "shape": { "sphere": { "radius": 0.7 } } } },
         { "rotate": { "axis": "z", "angle": 30, "shape": { "box": { "size": [2, 0.6, 0.6] } } } } ] } }"#;
     snapshot("blend.glsl", blend, Target::Glsl);
-    snapshot("formula.shadertoy", r#"{ "formula": { "f": "x^2 + y^2 + z^4 - 1", "within": { "sphere": 2 } } }"#, Target::Shadertoy);
+    snapshot(
+        "formula.shadertoy",
+        r#"{ "formula": { "f": "x^2 + y^2 + z^4 - 1", "within": { "sphere": 2 } } }"#,
+        Target::Shadertoy,
+    );
 }

@@ -169,12 +169,7 @@ impl Plan {
                 is_perspective: view.is_perspective,
                 footprint: frame.footprint.map(f64::from),
             },
-            tolerance: PlannedTolerance {
-                fixed,
-                growth,
-                precision: if is_growth { 0.0 } else { precision },
-                exponent,
-            },
+            tolerance: PlannedTolerance { fixed, growth, precision: if is_growth { 0.0 } else { precision }, exponent },
             lights: frame.lamps.iter().map(PlannedLight::of).collect(),
             occlusion: frame.occlusion.map(|occlusion| [occlusion.heights, occlusion.weights]),
         })

@@ -215,7 +215,8 @@ impl<'s> Machine<'s> {
     /// The place of a member, in whichever structure has as many members and one of this name.
     fn member(&self, count: usize, name: &str) -> usize {
         let mut all = self.members.values().filter(|members| members.len() == count);
-        all.find_map(|members| members.iter().position(|own| *own == name)).unwrap_or_else(|| panic!("no member {name}"))
+        all.find_map(|members| members.iter().position(|own| *own == name))
+            .unwrap_or_else(|| panic!("no member {name}"))
     }
 
     fn expr(&self, expr: &Expr, scope: &mut Scope<'_>) -> Value {
@@ -235,8 +236,7 @@ impl<'s> Machine<'s> {
                 }
                 match self.expr(of, scope) {
                     Vector(v) => {
-                        let parts: Vec<f64> =
-                            member.chars().map(|c| v["xyzw".find(c).expect("a component")]).collect();
+                        let parts: Vec<f64> = member.chars().map(|c| v["xyzw".find(c).expect("a component")]).collect();
                         if let [only] = parts[..] { Float(only) } else { Vector(parts) }
                     }
                     Struct(values) => values[self.member(values.len(), member)].clone(),
