@@ -577,3 +577,40 @@ fn a_small_file_has_the_same_pixels() {
     let length = |name: &str| std::fs::metadata(folder.path(name)).expect("there").len();
     assert!(length("small.png") < length("quick.png"));
 }
+
+#[test]
+fn shaders_are_written_for_every_target() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL);
+    for (target, file, word) in [
+        ("wgsl", "ball.wgsl", "@compute"),
+        ("glsl", "ball.glsl", "#version 300 es"),
+        ("shadertoy", "ball.glsl", "mainImage"),
+        ("hlsl", "ball.compute", "#pragma kernel render"),
+        ("msl", "ball.metal", "kernel void render"),
+    ] {
+        let output = folder.run(&["shader", "ball.json", "--target", target]);
+        assert_eq!(code(&output), 0, "{target}: {}", stderr(&output));
+        let text = std::fs::read_to_string(folder.path(file)).expect("the file");
+        assert!(text.contains(word), "{target}");
+    }
+    let output = folder.run(&["shader", "ball.json", "-t", "wgsl", "-o", "-", "--numbers", "ball.f32"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stdout(&output).contains("fn nearest"));
+    let bytes = std::fs::read(folder.path("ball.f32")).expect("the numbers");
+    assert!(bytes.len() > 400 && bytes.len() % 4 == 0, "{}", bytes.len());
+}
+
+#[test]
+fn shaders_of_what_is_no_scene_are_refused() {
+    let folder = Folder::new();
+    folder.write("bad.json", r#"{ "objects": [ { "shape": { "sphere": { "radius": -1 } } } ] }"#);
+    folder.write("ball.json", BALL);
+    let output = folder.run(&["shader", "bad.json", "--target", "wgsl"]);
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).contains("radius"), "{}", stderr(&output));
+    let output = folder.run(&["shader", "ball.json", "--target", "basic"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("shadertoy"), "{}", stderr(&output));
+    assert_eq!(folder.names(), ["bad.json", "ball.json"], "nothing was written");
+}

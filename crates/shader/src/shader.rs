@@ -148,7 +148,7 @@ impl Shader {
                 Extent::Empty | Extent::Unbounded => None,
             };
             let (bounds, factor, margin) = match part.is_measured {
-                true => (bounds, 1.0, -1.0),
+                true => (bounds, 1.0, 0.0),
                 false => {
                     let margin = bounds.map_or(0.0, |bounds| BOX_MARGIN * bounds.size().max_element());
                     let widened = bounds.map(|bounds| Aabb { min: bounds.min - margin, max: bounds.max + margin });
@@ -159,7 +159,15 @@ impl Shader {
             let place = self.layout.parts + PART_SIZE * index;
             write_box(&mut numbers[place..], bounds, plan.origin);
             let kind = self.kinds[index] as f64;
-            write(&mut numbers[place + 6..], &[factor, margin, kind, self.parts[index].base as f64]);
+            let is_bare = part.outline.steps.iter().any(|action| matches!(action, Action::Surface { .. }));
+            let metric = if part.is_measured {
+                0.0
+            } else if is_bare {
+                2.0
+            } else {
+                1.0
+            };
+            write(&mut numbers[place + 6..], &[factor, margin, kind, self.parts[index].base as f64, metric]);
             boxes.push(bounds);
             for (region, &place) in part.structure.regions().iter().zip(&self.parts[index].regions) {
                 self.write_region(&mut numbers, place, part.source.object, region.material, scene, &plan);

@@ -13,6 +13,17 @@ const RELAXATION: f32 = 1.2;
 // How often a march goes on after a false hit.
 const MOST_MARCHES: i32 = 16;
 
+// The share of the tolerance that is used at formulas, whose zeros the processor finds exactly.
+const FORMULA_SHARE: f32 = 0.0625;
+
+// The share of the tolerance that is used at a part.
+fn share_at(part: f32) -> f32 {
+    if (FORMULA_COUNT == 0 || part < 0.0) {
+        return 1.0;
+    }
+    return select(1.0, FORMULA_SHARE, parameters[PARTS + PART_SIZE * i32(part) + 10] == 2.0);
+}
+
 // What a ray met.
 struct Hit {
     // The distance from the ray's origin; FAR if it met nothing.
@@ -102,7 +113,7 @@ fn trace(ray: Ray) -> Hit {
         loop {
             let p: vec3<f32> = ray.origin + t * ray.direction;
             near = nearest(p);
-            reach = tolerance_at(t, length(p));
+            reach = tolerance_at(t, length(p)) * share_at(near.y);
             let free: f32 = near.x * scale * parameters[STEP_FACTOR];
             if (stride > before + max(free, 0.0) && stride > 0.0) {
                 t = t - stride + before;
