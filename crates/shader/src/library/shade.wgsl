@@ -161,6 +161,10 @@ fn shadow(first: i32, hit: Hit, incoming_light: Incoming) -> f32 {
         }
         t += step_length * parameters[STEP_FACTOR];
     }
+    // A ray that still creeps along a formula grazes it.
+    if (FORMULA_COUNT > 0 && t < end) {
+        return 0.0;
+    }
     return factor;
 }
 

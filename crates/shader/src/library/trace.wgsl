@@ -137,12 +137,16 @@ fn trace(ray: Ray) -> Hit {
             break;
         }
         is_unresolved = !is_near;
-        if (is_unresolved && (near.y < 0.0 || near.x >= CREEPING * reach * fineness)) {
+        if (near.y < 0.0) {
             break;
         }
         part = i32(near.y);
         gradient = part_gradient(part, ray.origin + t * ray.direction);
         let slope: f32 = max(length(gradient.xyz) * parameters[PARTS + PART_SIZE * part + 6], FLATTEST);
+        if (is_unresolved && near.x >= CREEPING * share_at(near.y) * reach * slope) {
+            part = -1;
+            break;
+        }
         // Rounding errors of values do not shrink with the slope.
         let least: f32 = ROUNDING * (length(ray.origin) + t);
         let is_false: bool = near.x > FALSE_HIT * reach * slope && near.x > least;
