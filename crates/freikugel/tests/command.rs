@@ -598,7 +598,7 @@ fn shaders_are_written_for_every_target() {
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert!(stdout(&output).contains("fn nearest"));
     let bytes = std::fs::read(folder.path("ball.f32")).expect("the numbers");
-    assert!(bytes.len() > 400 && bytes.len() % 4 == 0, "{}", bytes.len());
+    assert!(bytes.len() > 400 && bytes.len().is_multiple_of(4), "{}", bytes.len());
 }
 
 #[test]
