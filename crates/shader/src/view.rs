@@ -24,7 +24,7 @@ pub struct View {
 /// What is shown, or which numbers are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Show {
-    /// The linear colour, and 1 where the ray met something, otherwise 0.
+    /// The linear colour, and 1 if the ray ran out of steps, otherwise 0.
     #[default]
     Lit,
     /// Normals as colours.

@@ -17,13 +17,14 @@ fn sample_along(ray: Ray) -> vec4<f32> {
     let hit: Hit = trace(ray);
     let has_met: bool = hit.part >= 0;
     if (view.show == SHOW_LIT) {
+        let given_up: f32 = select(0.0, 1.0, hit.is_unresolved);
         if (hit.is_unresolved && parameters[WARNING] > 0.0) {
-            return vec4<f32>(triple(WARNING + 1), 0.0);
+            return vec4<f32>(triple(WARNING + 1), given_up);
         }
         if (has_met) {
-            return vec4<f32>(shade(hit), 1.0);
+            return vec4<f32>(shade(hit), given_up);
         }
-        return vec4<f32>(seen_behind(ray), 0.0);
+        return vec4<f32>(seen_behind(ray), given_up);
     }
     if (view.show == LAYER_NORMAL) {
         return vec4<f32>(hit.normal, select(-1.0, hit.distance, has_met));
