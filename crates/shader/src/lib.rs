@@ -59,6 +59,7 @@ mod helpers;
 mod layout;
 mod module;
 mod names;
+mod numbers;
 pub mod parse;
 mod part;
 mod print;

@@ -66,7 +66,7 @@ fn changed_scene(scene: &Scene, factor: f64) -> Scene {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4, rng_seed: proptest::test_runner::RngSeed::Fixed(7), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 4, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(7), ..ProptestConfig::default() })]
 
     #[test]
     fn no_number_changes_the_text(factor in 0.9f64..1.1) {
