@@ -23,8 +23,8 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 const HALVINGS: u32 = 60;
 
 /// Offsets of `count` rays from the pixel's centre, in pixels. Their mean is 0, so that no picture is shifted;
-/// a single one is exactly 0.
-pub(crate) fn offsets(count: u32) -> Vec<DVec2> {
+/// a single one is exactly 0. All back ends use these, in this order, so that their pictures can be compared.
+pub fn offsets(count: u32) -> Vec<DVec2> {
     if count == 1 {
         return vec![DVec2::ZERO];
     }

@@ -30,7 +30,7 @@ pub struct Layer {
 
 impl Layers {
     /// A ray that meets nothing.
-    pub(crate) const NOTHING: Layer = Layer {
+    pub const NOTHING: Layer = Layer {
         distance: f32::INFINITY,
         depth: f32::INFINITY,
         normal: [0.0; 3],
@@ -39,7 +39,12 @@ impl Layers {
         is_unresolved: false,
     };
 
-    pub(crate) fn new(width: u32, height: u32, pixels: Vec<Layer>) -> Self {
+    /// Layers that were computed elsewhere.
+    ///
+    /// # Panics
+    /// If there are not `width` times `height` pixels.
+    pub fn new(width: u32, height: u32, pixels: Vec<Layer>) -> Self {
+        assert_eq!(u64::from(width) * u64::from(height), pixels.len() as u64, "one layer for each pixel");
         Self { width, height, pixels }
     }
 

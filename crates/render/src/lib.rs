@@ -69,6 +69,7 @@ mod wave;
 
 pub use compare::{Comparison, Outcome, Trial, Verdict, compare};
 pub use encode::{Compression, EncodeError, encode_exr, encode_png};
+pub use filter::offsets as sample_offsets;
 pub use image::{Image, Tone, srgb_encode8};
 pub use layers::{Layer, Layers};
 pub use options::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_TILE, Options, OptionsError, Rect};
