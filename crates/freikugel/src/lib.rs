@@ -40,6 +40,8 @@ pub mod files;
 pub mod model;
 
 pub use freikugel_field as field;
+#[cfg(feature = "gpu")]
+pub use freikugel_gpu as gpu;
 pub use freikugel_render as render;
 pub use freikugel_scene as scene;
 pub use freikugel_shader as shader;
