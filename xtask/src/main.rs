@@ -12,6 +12,7 @@ const USAGE: &str = "\
 usage: cargo xtask COMMAND
 
   test          everything a change must pass; installs what it needs and says so
+  test-gpu      the part of it that needs a graphics processor, or software that stands in for one
   shapes        writes the list of shapes from the files under crates/field/src/shapes
   schema        writes schema/scene.schema.json
   gallery       renders all scenes and contact sheets into gallery/
@@ -22,6 +23,7 @@ fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let result = match args.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["test"] => test::all(),
+        ["test-gpu"] => test::on_graphics_processor(),
         ["shapes"] => shapes::write(&run::root()),
         ["schema"] => run::schema(&run::root()),
         ["gallery"] => gallery::gallery(),

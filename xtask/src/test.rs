@@ -11,20 +11,54 @@ pub(crate) fn all() -> Result {
     install_components()?;
     run(&root, "cargo", &["fmt", "--all", "--check"])?;
     shapes::check()?;
-    run(&root, "cargo", &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])?;
-    run(&root, "cargo", &["test", "--workspace", "--locked"])?;
+    // The graphics processor's crate is left to a step of its own: its libraries take minutes to build.
+    let workspace = ["--workspace", "--exclude", GPU_CRATE, "--locked"];
+    run(&root, "cargo", &[&["clippy"][..], &workspace, &["--all-targets", "--", "-D", "warnings"]].concat())?;
+    run(&root, "cargo", &[&["test"][..], &workspace].concat())?;
     schema_is_fresh()?;
     run_with(
         &root,
         "cargo",
-        &["doc", "--workspace", "--no-deps", "--locked", "--document-private-items"],
+        &["doc", "--workspace", "--all-features", "--no-deps", "--locked", "--document-private-items"],
         &warnings_are_errors,
     )?;
     probe::shape()?;
+    on_graphics_processor()?;
     install_deny()?;
     run(&root, "cargo", &["deny", "--log-level", "error", "check", "licenses", "bans", "sources"])?;
     eprintln!("xtask: all checks passed");
     Ok(())
+}
+
+/// The crate of graphics processors, and its package of software that stands in for one.
+const GPU_CRATE: &str = "freikugel-gpu";
+const GPU_SOFTWARE: &str = "mesa-vulkan-drivers";
+
+/// Lints and tests what needs a graphics processor, or software that stands in for one.
+pub(crate) fn on_graphics_processor() -> Result {
+    let root = root();
+    install_graphics_software()?;
+    let command = ["-p", "freikugel", "--features", "gpu", "--locked"];
+    run(&root, "cargo", &["clippy", "-p", GPU_CRATE, "--all-targets", "--locked", "--", "-D", "warnings"])?;
+    run(&root, "cargo", &[&["clippy"][..], &command, &["--all-targets", "--", "-D", "warnings"]].concat())?;
+    // The tests of the command run with it, too: most ask nothing of a graphics processor, and must not notice it.
+    run(&root, "cargo", &["test", "-p", GPU_CRATE, "--locked"])?;
+    run(&root, "cargo", &[&["test"][..], &command].concat())
+}
+
+/// Pictures are compared on whatever graphics processor there is. On Debian and its kin, where none has a driver for Vulkan,
+/// software is installed; elsewhere the tests say what is missing.
+fn install_graphics_software() -> Result {
+    let drivers = ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d"];
+    let has_driver =
+        drivers.iter().any(|folder| std::fs::read_dir(folder).is_ok_and(|mut files| files.next().is_some()));
+    if has_driver || !cfg!(target_os = "linux") || Command::new("apt-get").arg("--version").output().is_err() {
+        return Ok(());
+    }
+    eprintln!("xtask: installing the package {GPU_SOFTWARE}, which stands in for a graphics processor");
+    let install = ["install", "-y", "-q", GPU_SOFTWARE];
+    run(&root(), "apt-get", &install)
+        .map_err(|error| format!("{error}; the tests of graphics processors need this package, or a driver for Vulkan"))
 }
 
 fn schema_is_fresh() -> Result {

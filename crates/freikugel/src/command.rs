@@ -6,6 +6,7 @@
 mod check;
 mod compare;
 mod frame;
+mod graphics;
 mod help;
 mod info;
 mod input;
@@ -14,6 +15,7 @@ mod render;
 mod shader;
 mod sheet;
 mod sweep;
+mod view;
 
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
@@ -23,6 +25,7 @@ const EXAMPLES: &str = "\
 Examples:
   freikugel render scenes/first-light.json -o first-light.png
   freikugel render cup.json -o cup.exr --width 1920 --height 1080 --quality fine
+  freikugel view cup.json
   freikugel sweep cup.json --vary tracer.max_steps=5,10,100 -o steps.png
   freikugel compare cup.json
   freikugel shader cup.json --target shadertoy -o cup.glsl
@@ -42,6 +45,8 @@ pub(crate) struct Arguments {
 enum Command {
     /// Render a picture of a scene.
     Render(render::Arguments),
+    /// Show a scene in a window, drawn by the graphics processor.
+    View(view::Arguments),
     /// Render a scene with several values of a number, as a contact sheet.
     Sweep(sweep::Arguments),
     /// Compare all tracers on a scene: steps, evaluations, time, wrong pixels.
@@ -51,18 +56,11 @@ enum Command {
     /// Report the mistakes of scenes, and nothing else.
     Check(SceneFiles),
     /// Show what a scene is made of: its tree, contracts, boxes, and counts.
-    Info(SceneFile),
+    Info(info::Arguments),
     /// Print the JSON Schema of scene files.
     Schema,
     /// Explain a command, or the shapes: `help shapes`, `help shapes torus`.
     Help(help::Arguments),
-}
-
-/// The scene to work on.
-#[derive(Debug, clap::Args)]
-struct SceneFile {
-    /// The scene file, or - for standard input; or a model, whose file is called `.vm`.
-    scene: PathBuf,
 }
 
 /// The scenes to work on.
@@ -114,11 +112,12 @@ fn print(text: &str) -> Result<(), Failure> {
 pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
+        Command::View(arguments) => view::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Shader(arguments) => shader::run(&arguments),
         Command::Check(files) => check::run(&files.scenes),
-        Command::Info(file) => info::run(&file.scene),
+        Command::Info(arguments) => info::run(&arguments),
         Command::Schema => {
             let schema = freikugel::scene::schema();
             let text = serde_json::to_string_pretty(&schema).map_err(|error| Failure::Input(error.to_string()))?;

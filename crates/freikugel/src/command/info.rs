@@ -1,20 +1,37 @@
 //! `freikugel info`: what a scene is made of.
 
 use super::input::{self, Input};
-use super::{Failure, print};
+use super::{Failure, graphics, print};
 use freikugel::field::shape::FormulaParam;
 use freikugel::field::{
     Contract, Extent, Field, Formula, Limits, Metric, ParamKind, Structure, analyse, explore, extent, find_extent,
 };
 use freikugel::scene::Scene;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::PathBuf;
+
+/// Show what a scene is made of.
+#[derive(Debug, clap::Args)]
+pub(super) struct Arguments {
+    /// The scene file, or - for standard input; or a model, whose file is called `.vm`.
+    #[arg(required_unless_present = "gpu")]
+    scene: Option<PathBuf>,
+    /// List the graphics processors of this machine, the one that is taken first.
+    #[arg(long)]
+    gpu: bool,
+}
 
 /// How many characters of a formula are shown: those of models can fill many pages.
 const LONGEST_FORMULA: usize = 200;
 
-/// Prints the scene's objects with their trees, and the sums.
-pub(super) fn run(path: &Path) -> Result<(), Failure> {
+/// Prints the scene's objects with their trees, and the sums; or the graphics processors.
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.gpu {
+        print(&graphics::list()?)?;
+    }
+    let Some(path) = &arguments.scene else {
+        return Ok(());
+    };
     match input::read(path)? {
         Input::Scene(scene) => print(&describe(&scene)),
         Input::Region(region) => print(&describe(&Scene::of(region.field()))),

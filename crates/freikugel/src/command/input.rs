@@ -38,7 +38,7 @@ pub(super) enum Input {
 /// Reads a scene or, if the file is called `.vm`, a model, printing all diagnostics to standard error.
 pub(super) fn read(path: &Path) -> Result<Input, Failure> {
     let (text, name) = (text(path)?, name(path));
-    if !path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("vm")) {
+    if !is_model(path) {
         return parsed(&text, &name).map(|scene| Input::Scene(Box::new(scene)));
     }
     match model::read(&text) {
@@ -51,6 +51,11 @@ pub(super) fn read(path: &Path) -> Result<Input, Failure> {
     }
 }
 
+/// Whether a file's name says that it holds a model.
+fn is_model(path: &Path) -> bool {
+    path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("vm"))
+}
+
 /// Reads a scene, or a model that is a solid.
 pub(super) fn scene(path: &Path) -> Result<Scene, Failure> {
     match read(path)? {
@@ -60,6 +65,24 @@ pub(super) fn scene(path: &Path) -> Result<Scene, Failure> {
             name(path)
         ))),
     }
+}
+
+/// Reads a scene, or a model that is a solid, without printing anything; what is wrong with it comes back as text.
+#[cfg(feature = "gpu")]
+pub(super) fn scene_or_report(path: &Path) -> Result<Scene, String> {
+    let name = name(path);
+    let text = text_of(path).map_err(|fault| format!("can't read {name}: {fault}"))?;
+    let (scene, diagnostics) = if is_model(path) {
+        match model::read(&text) {
+            Ok(Model::Solid(scene)) => (Some(*scene), Vec::new()),
+            Ok(Model::Region(_)) => return Err(format!("{name} has become a region of the plane")),
+            Err(fault) => (None, vec![fault]),
+        }
+    } else {
+        let Reading { scene, diagnostics } = scene::read(&text);
+        (scene, diagnostics)
+    };
+    scene.ok_or_else(|| report(&text, &name, &diagnostics, false))
 }
 
 /// Reads a scene file's text.

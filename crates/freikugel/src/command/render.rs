@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::frame::{Frame, Samples, Watch, cannot_render, cannot_write, open, output_path, parse_method};
+use super::graphics::{self, Backend};
 use super::input::{self, Input};
 use super::interrupt::Interrupt;
 use freikugel::files::Format;
@@ -19,6 +20,7 @@ Examples:
   freikugel render cup.json --tracer sphere       plain sphere tracing, for comparison
   freikugel render cup.json --crop 100,50,64,64   a part of the frame, the same bytes as in the whole
   freikugel render cup.json --stats cup-stats.json
+  freikugel render cup.json --backend gpu         by the graphics processor
   freikugel render cup.vm                         an expression graph: a solid, or without z a region of the plane";
 
 /// Render a picture of a scene.
@@ -37,6 +39,12 @@ pub(super) struct Arguments {
     /// The part of the frame to render.
     #[arg(long, value_name = "X,Y,WIDTH,HEIGHT", value_parser = parse_crop)]
     crop: Option<Rect>,
+    /// What computes the picture. Only the CPU's pictures are the same, byte by byte, on all machines.
+    #[arg(long, value_name = "NAME", default_value = "cpu")]
+    backend: Backend,
+    /// A part of the name of the graphics processor; `info --gpu` lists them.
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
     /// The instruction set to evaluate fields with; by default the best one. The picture is the same with all.
     #[arg(long, value_name = "NAME")]
     simd: Option<String>,
@@ -91,18 +99,30 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (options.width, options.height) = (side, side);
     }
     options.region().map_err(|error| Failure::Usage(error.to_string()))?;
+    let backend = backend(arguments)?;
 
     let interrupt = Interrupt::listen();
     let picture_file = open(&path, &interrupt)?;
     let stats_file = arguments.stats.as_deref().map(|path| open(path, &interrupt)).transpose()?;
 
     let watch = Watch::new(arguments.quiet, &interrupt);
-    let rendered = match &input {
-        Input::Scene(scene) => render(scene, &options, &watch),
-        Input::Region(region) => region.render(&options, &watch),
+    let on_cpu = |input: &Input| match input {
+        Input::Scene(scene) => render(scene, &options, &watch).map_err(cannot_render),
+        Input::Region(region) => region.render(&options, &watch).map_err(cannot_render),
+    };
+    let adapter = arguments.adapter.as_deref();
+    let made = match (backend, &input) {
+        (Backend::Cpu, _) => on_cpu(&input).map(|rendered| (rendered, None)),
+        (Backend::Gpu, Input::Scene(scene)) => graphics::render(scene, &options, adapter, &watch),
+        (Backend::Gpu, Input::Region(_)) => {
+            Err(Failure::Usage("regions of the plane are rendered on the CPU: leave --backend out".into()))
+        }
+        (Backend::Auto, Input::Scene(scene)) => graphics::render_if_able(scene, &options, adapter, &watch)
+            .unwrap_or_else(|reason| on_cpu(&input).map(|rendered| (rendered, Some(format!("CPU: {reason}"))))),
+        (Backend::Auto, Input::Region(_)) => on_cpu(&input).map(|rendered| (rendered, None)),
     };
     watch.bar.finish_and_clear();
-    let rendered = rendered.map_err(cannot_render)?;
+    let (rendered, by) = made?;
 
     let picture = match &input {
         Input::Scene(scene) => scene.picture.clone(),
@@ -118,13 +138,29 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             Input::Scene(scene) => scene.tracer.method,
             Input::Region(_) => Method::Auto,
         };
-        file.write(statistics(&rendered, method).as_bytes()).map_err(|error| cannot_write(path, &error))?;
+        let text = statistics(&rendered, method, by.as_deref());
+        file.write(text.as_bytes()).map_err(|error| cannot_write(path, &error))?;
     }
     picture_file.write(&bytes).map_err(|error| cannot_write(&path, &error))?;
     if !arguments.quiet {
-        summarise(&path, &rendered);
+        summarise(&path, &rendered, by.as_deref());
     }
     Ok(())
+}
+
+/// What computes the picture, as far as the words of the command line say: some of them mean something on the CPU only.
+fn backend(arguments: &Arguments) -> Result<Backend, Failure> {
+    let Arguments { backend, adapter, simd, tracer, frame, .. } = arguments;
+    let only_cpu = [("--simd", simd.is_some()), ("--tracer", tracer.is_some()), ("--threads", frame.threads.is_some())];
+    let for_cpu = only_cpu.iter().find(|(_, is_given)| *is_given);
+    match (backend, for_cpu) {
+        (Backend::Gpu, Some((name, _))) => Err(Failure::Usage(format!("{name} is for the CPU, not for --backend gpu"))),
+        (Backend::Cpu, _) if adapter.is_some() => {
+            Err(Failure::Usage("--adapter names a graphics processor: add --backend gpu".into()))
+        }
+        (Backend::Auto, Some(_)) => Ok(Backend::Cpu),
+        (backend, _) => Ok(*backend),
+    }
 }
 
 /// The instruction set of a name.
@@ -137,12 +173,15 @@ fn instruction_set(name: &str) -> Result<freikugel::field::simd::Level, Failure>
     })
 }
 
-/// One line on what came out, and one on what did not.
-fn summarise(path: &Path, rendered: &Rendered) {
+/// One line on what came out and what computed it, if that is of interest; and one on what did not come out.
+fn summarise(path: &Path, rendered: &Rendered, by: Option<&str>) {
     let Stats { rays, times, unresolved, .. } = &rendered.stats;
     let (width, height) = (rendered.image.width(), rendered.image.height());
     let all = rays.camera + rays.shadow + rays.occlusion;
-    eprintln!("{}: {width} x {height}, {:.2} s, {all} rays", path.display(), times.wall.as_secs_f64());
+    let by = by.map_or_else(String::new, |by| format!(", on {by}"));
+    // Only the CPU counts rays that do not come from the camera.
+    let what = if rays.shadow + rays.occlusion > 0 { "rays" } else { "camera rays" };
+    eprintln!("{}: {width} x {height}, {:.2} s, {all} {what}{by}", path.display(), times.wall.as_secs_f64());
     if unresolved.camera + unresolved.shadow > 0 {
         let share = 100.0 * unresolved.pixels as f64 / rendered.image.pixels().len() as f64;
         eprintln!(
@@ -152,9 +191,20 @@ fn summarise(path: &Path, rendered: &Rendered) {
     }
 }
 
-/// Counts and times as JSON.
-fn statistics(rendered: &Rendered, method: Method) -> String {
+/// Counts and times as JSON. A graphics processor counts few things, and what it did not count is not there.
+fn statistics(rendered: &Rendered, method: Method, by: Option<&str>) -> String {
     let Stats { rays, hits, inside, evaluations, steps, unresolved, times } = &rendered.stats;
+    if times.threads == 0 {
+        let value = serde_json::json!({
+            "graphics_processor": by,
+            "width": rendered.image.width(),
+            "height": rendered.image.height(),
+            "rays": { "camera": rays.camera },
+            "unresolved": { "pixels": unresolved.pixels, "camera_rays": unresolved.camera },
+            "seconds": { "wall": times.wall.as_secs_f64() },
+        });
+        return format!("{value:#}\n");
+    }
     let value = serde_json::json!({
         "tracer": method.name(),
         "width": rendered.image.width(),

@@ -1,0 +1,124 @@
+//! Graphics processors: rendering with them, listing them, and what to say where this program was built without them.
+
+use super::Failure;
+use super::frame::Watch;
+use clap::ValueEnum;
+use freikugel::render::{Options, Rendered};
+use freikugel::scene::Scene;
+
+/// What computes pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Backend {
+    /// The CPU: the reference, the same bytes on all machines.
+    Cpu,
+    /// The graphics processor.
+    Gpu,
+    /// The graphics processor if there is one that is no software, and it can draw the scene; otherwise the CPU.
+    Auto,
+}
+
+/// A picture, and what computed it, if that is of interest.
+pub(super) type Made = (Rendered, Option<String>);
+
+#[cfg(feature = "gpu")]
+pub(super) use with::{choice, list, render, render_if_able};
+
+#[cfg(not(feature = "gpu"))]
+pub(super) use without::{list, missing, render, render_if_able};
+
+#[cfg(feature = "gpu")]
+mod with {
+    use super::{Failure, Made, Options, Scene, Watch};
+    use freikugel::gpu::{AdapterError, Choice, DrawError, Gpu, GpuRenderer, adapters};
+    use std::sync::Arc;
+
+    /// All graphics processors, the one that is taken first; a line for each.
+    pub(in super::super) fn list() -> Result<String, Failure> {
+        let adapters = adapters();
+        if adapters.is_empty() {
+            return Err(Failure::Input(AdapterError::None.to_string()));
+        }
+        Ok(adapters.iter().map(|adapter| format!("{adapter}\n")).collect())
+    }
+
+    /// The graphics processor with a name, or the best one.
+    pub(in super::super) fn choice(adapter: Option<&str>) -> Choice {
+        adapter.map_or(Choice::Automatic, |name| Choice::Named(name.to_owned()))
+    }
+
+    /// Renders with a graphics processor.
+    pub(in super::super) fn render(
+        scene: &Scene,
+        options: &Options,
+        adapter: Option<&str>,
+        watch: &Watch,
+    ) -> Result<Made, Failure> {
+        let gpu = Gpu::open(&choice(adapter)).map_err(|error| Failure::Input(error.to_string()))?;
+        draw(&Arc::new(gpu), scene, options, watch).map_err(failure)
+    }
+
+    /// Renders with a graphics processor if there is one that is no software, unless it was named, and it can draw the scene.
+    ///
+    /// # Errors
+    /// Why it has to be done otherwise.
+    pub(in super::super) fn render_if_able(
+        scene: &Scene,
+        options: &Options,
+        adapter: Option<&str>,
+        watch: &Watch,
+    ) -> Result<Result<Made, Failure>, String> {
+        let gpu = Gpu::open(&choice(adapter)).map_err(|error| error.to_string())?;
+        if gpu.summary().is_software() && adapter.is_none() {
+            return Err(format!("{} is software", gpu.summary().name));
+        }
+        match draw(&Arc::new(gpu), scene, options, watch) {
+            Err(error @ (DrawError::Shader(_) | DrawError::Gpu(_))) => Err(error.to_string()),
+            drawn => Ok(drawn.map_err(failure)),
+        }
+    }
+
+    fn draw(gpu: &Arc<Gpu>, scene: &Scene, options: &Options, watch: &Watch) -> Result<Made, DrawError> {
+        let rendered = GpuRenderer::new(gpu, scene)?.render(options, watch)?;
+        Ok((rendered, Some(gpu.summary().to_string())))
+    }
+
+    fn failure(error: DrawError) -> Failure {
+        match error {
+            DrawError::Cancelled => Failure::Interrupted,
+            DrawError::Options(error) => Failure::Usage(error.to_string()),
+            error => Failure::Input(error.to_string()),
+        }
+    }
+}
+
+#[cfg(not(feature = "gpu"))]
+mod without {
+    use super::{Failure, Made, Options, Scene, Watch};
+
+    /// What is said where something needs graphics processors.
+    pub(in super::super) fn missing(what: &str) -> Failure {
+        Failure::Input(format!(
+            "{what} needs a freikugel that was built with the feature gpu:\n  \
+             cargo install --path crates/freikugel --features gpu\n\
+             or, without installing it,\n  \
+             cargo run --release --features gpu -- {what} ..."
+        ))
+    }
+
+    pub(in super::super) fn list() -> Result<String, Failure> {
+        Err(missing("info --gpu"))
+    }
+
+    pub(in super::super) fn render(_: &Scene, _: &Options, _: Option<&str>, _: &Watch) -> Result<Made, Failure> {
+        Err(missing("render --backend gpu"))
+    }
+
+    pub(in super::super) fn render_if_able(
+        _: &Scene,
+        _: &Options,
+        _: Option<&str>,
+        _: &Watch,
+    ) -> Result<Result<Made, Failure>, String> {
+        Err("this freikugel was built without graphics processors".into())
+    }
+}

@@ -1,0 +1,114 @@
+//! The command with a graphics processor, and without the feature that brings it.
+
+use std::process::{Command, Output};
+
+fn run(folder: &std::path::Path, args: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_freikugel"));
+    // Not the user's choice, and no screen.
+    for variable in ["WGPU_ADAPTER_NAME", "WGPU_BACKEND", "DISPLAY", "WAYLAND_DISPLAY"] {
+        command.env_remove(variable);
+    }
+    command.args(args).current_dir(folder).output().expect("the command runs")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+const BALL: &str = r#"{ "picture": { "width": 40, "height": 30, "samples": 2 },
+    "objects": [ { "shape": { "sphere": { "radius": 1 } } } ] }"#;
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    std::fs::write(folder.path().join("ball.json"), BALL).expect("can write");
+    folder
+}
+
+#[test]
+fn options_of_the_other_processor_are_refused() {
+    let folder = folder();
+    for (args, part) in [
+        (&["--backend", "gpu", "--simd", "AVX2"][..], "--simd"),
+        (&["--backend", "gpu", "--threads", "1"], "--threads"),
+        (&["--backend", "gpu", "--tracer", "sphere"], "--tracer"),
+        (&["--adapter", "x"], "--adapter"),
+    ] {
+        let output = run(folder.path(), &[&["render", "ball.json"][..], args].concat());
+        // An instruction set that the machine has not is a mistake as well.
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(part) || stderr(&output).contains("instruction set"), "{}", stderr(&output));
+        assert!(!folder.path().join("ball.png").exists());
+    }
+}
+
+#[test]
+fn auto_always_makes_a_picture_and_says_by_what() {
+    let folder = folder();
+    let output = run(folder.path(), &["render", "ball.json", "--backend", "auto"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stderr(&output).contains(", on "), "{}", stderr(&output));
+    assert!(folder.path().join("ball.png").exists());
+}
+
+#[cfg(not(feature = "gpu"))]
+#[test]
+fn without_the_feature_commands_say_how_to_get_it() {
+    let folder = folder();
+    for args in [&["view", "ball.json"][..], &["render", "ball.json", "--backend", "gpu"], &["info", "--gpu"]] {
+        let output = run(folder.path(), args);
+        assert_eq!(output.status.code(), Some(1), "{args:?}");
+        assert!(
+            stderr(&output).contains("cargo install --path crates/freikugel --features gpu"),
+            "{}",
+            stderr(&output)
+        );
+    }
+}
+
+#[cfg(feature = "gpu")]
+#[test]
+fn the_graphics_processor_renders_the_same_picture() {
+    let folder = folder();
+    let pixels = |name: &str| {
+        let file = std::fs::File::open(folder.path().join(name)).expect("a file");
+        let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a picture");
+        let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+        reader.next_frame(&mut pixels).expect("pixels");
+        pixels
+    };
+    let output =
+        run(folder.path(), &["render", "ball.json", "--backend", "gpu", "-o", "gpu.png", "--stats", "gpu.json"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let output = run(folder.path(), &["render", "ball.json", "-o", "cpu.png"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let (gpu, cpu) = (pixels("gpu.png"), pixels("cpu.png"));
+    let sum: u32 = gpu.iter().zip(&cpu).map(|(a, b)| u32::from(a.abs_diff(*b))).sum();
+    assert!(f64::from(sum) / (gpu.len() as f64) < 0.5, "{sum}");
+    let stats = std::fs::read_to_string(folder.path().join("gpu.json")).expect("statistics");
+    assert!(stats.contains("\"camera\": 2400") && stats.contains("graphics_processor"), "{stats}");
+}
+
+#[cfg(feature = "gpu")]
+#[test]
+fn adapters_are_listed_and_chosen_by_name() {
+    let folder = folder();
+    let output = run(folder.path(), &["info", "--gpu"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let list = String::from_utf8_lossy(&output.stdout).into_owned();
+    let name = list.split(" (").next().expect("a name");
+    let output = run(folder.path(), &["render", "ball.json", "--backend", "gpu", "--adapter", name]);
+    assert!(output.status.success() && stderr(&output).contains(name), "{}", stderr(&output));
+    let output = run(folder.path(), &["render", "ball.json", "--backend", "gpu", "--adapter", "no such"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("there are: "), "{}", stderr(&output));
+}
+
+#[cfg(all(feature = "gpu", target_os = "linux"))]
+#[test]
+fn a_window_without_a_screen_is_refused_with_a_way_out() {
+    let folder = folder();
+    let output = run(folder.path(), &["view", "ball.json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let text = stderr(&output);
+    assert!(text.contains("DISPLAY") && text.contains("freikugel render"), "{text}");
+}
