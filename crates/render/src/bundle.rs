@@ -245,9 +245,50 @@ impl Bundle {
         self.found.len() == self.count
     }
 
-    /// Finds the stretch of each ray that lies in a box, and returns the rows of those that meet it before their end.
-    pub(crate) fn meet(&mut self, level: Level, middle: Triple, half: Triple) -> Rows {
-        let mut rows = Rows::of(self.count);
+    /// All rows.
+    pub(crate) fn rows(&self) -> Rows {
+        Rows::of(self.count)
+    }
+
+    /// Those of some rows that may meet a box or something in it before their end. Wide enough for whatever
+    /// [`Bundle::meet`] makes of a box in there: whether a ray meets a box must not depend on its companions.
+    pub(crate) fn approaching(&self, level: Level, mut rows: Rows, middle: Triple, half: Triple) -> Rows {
+        let mut some = [false; ROWS];
+        let Self { origin, inverse, near, far, .. } = self;
+        simd::with(
+            level,
+            #[inline(always)]
+            || {
+                for (start, some) in rows.starts().zip(&mut some) {
+                    let (mut first, mut last) = (*row(near, start), *row(far, start));
+                    for axis in 0..3 {
+                        let (origin, inverse) = (row(&origin[axis], start), row(&inverse[axis], start));
+                        let size = middle[axis].abs() + half[axis];
+                        for lane in 0..LANES {
+                            let half = half[axis] + SHAFT_ROUNDING * (size + origin[lane].abs());
+                            let towards = (middle[axis] - origin[lane]) * inverse[lane];
+                            let reach = half * inverse[lane].abs();
+                            let (begin, end) = (towards - reach, towards + reach);
+                            first[lane] = if begin > first[lane] { begin } else { first[lane] };
+                            last[lane] = if end < last[lane] { end } else { last[lane] };
+                        }
+                    }
+                    let mut met = 0;
+                    for lane in 0..LANES {
+                        let seam = SHAFT_SEAM * (first[lane].abs() + last[lane].abs());
+                        met += u32::from(first[lane] - seam <= last[lane] + seam);
+                    }
+                    *some = met > 0;
+                }
+            },
+        );
+        rows.retain(|place| some[place]);
+        rows
+    }
+
+    /// Finds the stretch of each ray of some rows that lies in a box, and returns the rows of those that meet it before their
+    /// end.
+    pub(crate) fn meet(&mut self, level: Level, mut rows: Rows, middle: Triple, half: Triple) -> Rows {
         let mut some = [false; ROWS];
         let Self { origin, inverse, near, far, enter, leave, .. } = self;
         simd::with(

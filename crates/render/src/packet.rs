@@ -184,12 +184,12 @@ impl<'f> Trip<'_, 'f, '_> {
         let root = self.space.cells.root();
         // What lies outside all cells can still dim a soft shadow.
         let mut evaluations = self.march_outside(bundle, root, false);
-        evaluations += self.visit(bundle, &shaft, root);
+        evaluations += self.visit(bundle, &shaft, bundle.rows(), root);
         evaluations + self.march_outside(bundle, root, true)
     }
 
-    /// Visits a box that some rays may meet.
-    fn visit(&mut self, bundle: &mut Bundle, shaft: &Shaft, cell: &'f Cell) -> u64 {
+    /// Visits a box that some rays of some rows may meet.
+    fn visit(&mut self, bundle: &mut Bundle, shaft: &Shaft, rows: Rows, cell: &'f Cell) -> u64 {
         if bundle.is_done() {
             return 0;
         }
@@ -199,9 +199,13 @@ impl<'f> Trip<'_, 'f, '_> {
             return 0;
         }
         if self.is_small(cell) {
-            let rows = bundle.meet(self.field.level(), self.space.middle(cell), cell.half());
+            let rows = bundle.meet(self.field.level(), rows, self.space.middle(cell), cell.half());
             let pace = self.pace_of(cell);
             return self.cross(bundle, rows, cell, pace);
+        }
+        let rows = bundle.approaching(self.field.level(), rows, self.space.middle(cell), cell.half());
+        if rows.is_empty() {
+            return 0;
         }
         let children = self.space.cells.children(cell, self.splitter);
         let side = (1..).find(|n| n * n * n >= children.len()).expect("a cube of boxes");
@@ -231,7 +235,7 @@ impl<'f> Trip<'_, 'f, '_> {
                 for &(x, slab) in &slabs[0][..side] {
                     let child = &children[x + y + z];
                     if is_open(meet(span, slab)) && !self.is_of_no_interest(child) {
-                        evaluations += self.visit(bundle, shaft, child);
+                        evaluations += self.visit(bundle, shaft, rows, child);
                     }
                 }
             }
@@ -280,7 +284,8 @@ impl<'f> Trip<'_, 'f, '_> {
         if self.quest != Quest::Least {
             return 0;
         }
-        bundle.meet(self.field.level(), self.space.middle(root), root.half());
+        let rows = bundle.rows();
+        bundle.meet(self.field.level(), rows, self.space.middle(root), root.half());
         let rows = bundle.outside(is_behind);
         let pace = root.part().is_measured().then_some(self.space.pace);
         self.cross(bundle, rows, root, pace)
