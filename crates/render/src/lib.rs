@@ -51,6 +51,7 @@ mod light;
 mod loose;
 mod march;
 mod material;
+mod occlusion;
 mod options;
 mod packet;
 mod prepare;

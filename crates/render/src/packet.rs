@@ -70,11 +70,58 @@ pub(crate) enum Quest {
     Least,
 }
 
-impl Space<'_> {
+impl<'f> Space<'f> {
     /// The middle of a cell, relative to the origin of the rays.
     pub(crate) fn middle(&self, cell: &Cell) -> Triple {
         let middle = cell.middle();
         std::array::from_fn(|axis| middle[axis] + self.shift[axis])
+    }
+
+    /// The smallest cell around a point. What lies outside of all gets that of all.
+    pub(crate) fn cell_at(&self, point: Triple, splitter: &mut Splitter) -> &'f Cell {
+        let root = self.cells.root();
+        let [middle, half] = [self.middle(root), root.half()];
+        self.cells.enter(root, splitter);
+        if (0..3).any(|axis| (point[axis] - middle[axis]).abs() > half[axis]) {
+            return root;
+        }
+        let mut cell = root;
+        while !self.is_small(cell, true) {
+            let children = self.cells.children(cell, splitter);
+            let side = side_of(children);
+            let place = |axis: usize, stride: usize| {
+                let nearest = |place: &usize| (self.middle(&children[place * stride])[axis] - point[axis]).abs();
+                (0..side).min_by(|a, b| nearest(a).total_cmp(&nearest(b))).expect("a child") * stride
+            };
+            cell = &children[place(0, 1) + place(1, side) + place(2, side * side)];
+            self.cells.enter(cell, splitter);
+        }
+        cell
+    }
+
+    /// Whether a box that was entered is not worth splitting further, for what is done with values there if that is safe, or
+    /// else with models.
+    fn is_small(&self, cell: &Cell, by_values: bool) -> bool {
+        if cell.is_crowded() {
+            return self.manner == Manner::Plain;
+        }
+        let part = cell.part();
+        let (small, pixels) = match (part.is_measured() && by_values, part.is_warped()) {
+            (true, _) => (SMALL_PART, CELL_PIXELS),
+            (false, true) => (0, CELL_PIXELS),
+            (false, false) => (SMALL_FORMULA, FORMULA_PIXELS),
+        };
+        if self.manner == Manner::Plain || cell.occupancy() != Occupancy::Surface || part.size() <= small {
+            return true;
+        }
+        if part.is_warped() && by_values && part.size() <= SMALL_WARPED && self.cells.slope(cell).is_tight() {
+            return true;
+        }
+        let (middle, half, eye) = (self.middle(cell), cell.half(), self.eye);
+        let gap = |axis: usize| ((middle[axis] - eye[axis]).abs() - half[axis]).max(0.0);
+        let distance = length([gap(0), gap(1), gap(2)]);
+        let [fixed, growth] = self.pixel;
+        2.0 * half[0].max(half[1]).max(half[2]) <= pixels * (fixed + growth * distance)
     }
 }
 
@@ -159,6 +206,11 @@ impl<'f> Packet<'f> {
     }
 }
 
+/// How many parts of a box lie side by side.
+fn side_of(children: &[Cell]) -> usize {
+    (1..).find(|n| n * n * n >= children.len()).expect("a cube of boxes")
+}
+
 /// The signs of a direction.
 #[inline(always)]
 fn octant(direction: Triple) -> usize {
@@ -198,7 +250,7 @@ impl<'f> Trip<'_, 'f, '_> {
         if self.is_of_no_interest(cell) {
             return 0;
         }
-        if self.is_small(cell) {
+        if self.space.is_small(cell, self.may_march()) {
             let rows = bundle.meet(self.field.level(), rows, self.space.middle(cell), cell.half());
             let pace = self.pace_of(cell);
             return self.cross(bundle, rows, cell, pace);
@@ -208,7 +260,7 @@ impl<'f> Trip<'_, 'f, '_> {
             return 0;
         }
         let children = self.space.cells.children(cell, self.splitter);
-        let side = (1..).find(|n| n * n * n >= children.len()).expect("a cube of boxes");
+        let side = side_of(children);
         let strides = [1, side, side * side];
         // Along each axis the slabs that the boxes lie in, from front to back.
         let mut slabs = [[(0, [0.0; 2]); MOST_SLABS]; 3];
@@ -250,33 +302,6 @@ impl<'f> Trip<'_, 'f, '_> {
 
     fn is_of_no_interest(&self, cell: &Cell) -> bool {
         self.quest != Quest::Least && matches!(cell.occupancy(), Occupancy::Outside(_))
-    }
-
-    fn is_small(&self, cell: &Cell) -> bool {
-        if cell.is_crowded() {
-            return self.space.manner == Manner::Plain;
-        }
-        let part = cell.part();
-        let (small, pixels) = match (part.is_measured() && self.may_march(), part.is_warped()) {
-            (true, _) => (SMALL_PART, CELL_PIXELS),
-            (false, true) => (0, CELL_PIXELS),
-            (false, false) => (SMALL_FORMULA, FORMULA_PIXELS),
-        };
-        if self.space.manner == Manner::Plain || cell.occupancy() != Occupancy::Surface || part.size() <= small {
-            return true;
-        }
-        if part.is_warped()
-            && self.may_march()
-            && part.size() <= SMALL_WARPED
-            && self.space.cells.slope(cell).is_tight()
-        {
-            return true;
-        }
-        let (middle, half, eye) = (self.space.middle(cell), cell.half(), self.space.eye);
-        let gap = |axis: usize| ((middle[axis] - eye[axis]).abs() - half[axis]).max(0.0);
-        let distance = length([gap(0), gap(1), gap(2)]);
-        let [fixed, growth] = self.space.pixel;
-        2.0 * half[0].max(half[1]).max(half[2]) <= pixels * (fixed + growth * distance)
     }
 
     /// Lets rays march on the stretches of them that lie outside the region of all cells, before or behind it.

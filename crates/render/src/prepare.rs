@@ -85,8 +85,6 @@ pub struct Renderer<'s> {
     bounds: Extent,
     /// Objects that rays are intersected with exactly.
     pub(crate) exact: Vec<Exact<'s>>,
-    /// The union of all objects, if it is not the same as the marched one.
-    everything: Option<Structure>,
     /// The box around all objects of finite size.
     extent: Option<Aabb>,
     /// The cells of the marched union.
@@ -203,8 +201,6 @@ impl<'s> Renderer<'s> {
         let is_uniform = paints
             .windows(2)
             .all(|pair| std::ptr::eq(pair[0].material, pair[1].material) && pair[0].is_sheet == pair[1].is_sheet);
-        let is_all_marched = marched.len() == scene.objects.len();
-        let everything = (!is_all_marched).then(|| Structure::compile(&fields)).transpose();
         Ok(Self {
             scene,
             marched: structure,
@@ -213,7 +209,6 @@ impl<'s> Renderer<'s> {
             scale: if scale.is_finite() { scale } else { 1.0 },
             bounds,
             exact,
-            everything: everything.map_err(PrepareError::Fields)?,
             extent: match extent {
                 Extent::Finite(extent) => Some(extent),
                 Extent::Empty | Extent::Unbounded => None,
@@ -234,14 +229,14 @@ impl<'s> Renderer<'s> {
 }
 
 impl Renderer<'_> {
-    /// Where the cells of a picture lie that marches within `bounds`: at the same place for all pictures, if that can be.
-    fn site(&self, camera: &Camera, bounds: Option<Aabb>) -> Site {
+    /// Where the cells of a picture lie that fill `region`, or all that can be seen: at the same place for all pictures, if that can be.
+    fn site(&self, camera: &Camera, region: Option<Aabb>) -> Site {
         // The origins of pictures lie in the extent, if there is one.
         let (origin, reach) = match self.extent {
             Some(extent) => (extent.center(), extent.size().length() / 2.0),
             None => (camera.target, 0.0),
         };
-        let region = bounds.unwrap_or_else(|| {
+        let region = region.unwrap_or_else(|| {
             // Where a ray can get to from what the camera sees; rounded up, so that it is the same for many cameras.
             let way = 2.0 * self.scene.tracer.max_distance + camera.eye.distance(camera.target);
             let far = way + camera.eye.distance(origin);
@@ -315,7 +310,6 @@ pub(crate) struct Frame<'r> {
     /// What single-precision coordinates are relative to.
     pub(crate) origin: DVec3,
     pub(crate) marched: Option<Program>,
-    pub(crate) everything: Option<Program>,
     /// One for each of the renderer's exact objects.
     pub(crate) exact: Vec<Program>,
     pub(crate) lamps: Vec<Lamp>,
@@ -365,10 +359,10 @@ impl<'r> Frame<'r> {
             None => camera.target,
         };
         let program = |structure: &Structure| structure.program(origin);
-        let everything = renderer.everything.as_ref().map(program);
         let marched = renderer.marched.as_ref().map(program);
+        let exact: Vec<Program> = renderer.exact.iter().map(|exact| program(&exact.structure)).collect();
         let clearance =
-            |place: DVec3| everything.as_ref().or(marched.as_ref()).map_or(f64::INFINITY, |field| field.value(place));
+            |place: DVec3| marched.iter().chain(&exact).map(|field| field.value(place)).fold(f64::INFINITY, f64::min);
         let lamps = scene
             .lights
             .iter()
@@ -399,13 +393,20 @@ impl<'r> Frame<'r> {
             Extent::Finite(bounds) => Some(widened(bounds)),
             Extent::Empty | Extent::Unbounded => None,
         };
-        let site = renderer.site(&camera, bounds);
+        let occlusion = scene.occlusion.as_ref().map(|occlusion| {
+            let reach = occlusion.reach.unwrap_or(size * OCCLUSION_REACH);
+            (reach, OcclusionSamples::new(f64::from(occlusion.strength), reach))
+        });
+        // Samples of ambient occlusion should lie in small cells, too.
+        let around = occlusion.map_or(0.0, |(reach, _)| reach);
+        let region = bounds.map(|Aabb { min, max }| Aabb { min: min - around, max: max + around });
+        let site = renderer.site(&camera, region);
         Ok(Self {
             renderer,
             view,
             level: options.level.unwrap_or_else(simd::best),
             origin,
-            exact: renderer.exact.iter().map(|exact| program(&exact.structure)).collect(),
+            exact,
             lamps,
             way,
             pace: Pace {
@@ -417,12 +418,8 @@ impl<'r> Frame<'r> {
             bounds,
             cells: renderer.marched.as_ref().map(|structure| renderer.keep.cells(structure, site)),
             eye: (camera.eye - origin).as_vec3().to_array(),
-            occlusion: scene.occlusion.as_ref().map(|occlusion| {
-                let reach = occlusion.reach.unwrap_or(size * OCCLUSION_REACH);
-                OcclusionSamples::new(f64::from(occlusion.strength), reach)
-            }),
+            occlusion: occlusion.map(|(_, samples)| samples),
             footprint: [fixed as f32, growth as f32],
-            everything,
             marched,
         })
     }

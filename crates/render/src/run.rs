@@ -93,7 +93,7 @@ impl Renderer<'_> {
             let mut colors = Vec::new();
             let mut order = Order::default();
             let offsets = &offsets;
-            move |tracer: &mut Tracer<'_>, tile: Rect, out: &mut [Triple]| {
+            move |tracer, tile, out: &mut [Triple]| {
                 order.fit(tile);
                 let mut unresolved = vec![false; out.len()];
                 let weight = 1.0 / offsets.len() as f32;
@@ -141,7 +141,7 @@ impl Renderer<'_> {
         let mut pixels = filled(region, Layers::NOTHING)?;
         let mut stats = in_tiles(&frame, options, region, progress, &mut pixels, || {
             let mut order = Order::default();
-            move |tracer: &mut Tracer<'_>, tile: Rect, out: &mut [_]| {
+            move |tracer, tile, out: &mut [_]| {
                 order.fit(tile);
                 for first in (0..out.len()).step_by(WAVE) {
                     if progress.is_cancelled() {
@@ -212,8 +212,8 @@ fn filled<T: Clone>(region: Rect, value: T) -> Result<Vec<T>, RenderError> {
 
 /// Has all threads compute tiles of `region` until `pixels` is full. `worker` makes what one thread computes a tile with;
 /// that gets the tile's pixels, row by row, as they are in `pixels`.
-fn in_tiles<T, W>(
-    frame: &Frame<'_>,
+fn in_tiles<'f, T, W>(
+    frame: &'f Frame<'f>,
     options: &Options,
     region: Rect,
     progress: &dyn Progress,
@@ -222,7 +222,7 @@ fn in_tiles<T, W>(
 ) -> Result<Stats, RenderError>
 where
     T: Copy + Send + Sync,
-    W: FnMut(&mut Tracer<'_>, Rect, &mut [T]),
+    W: FnMut(&mut Tracer<'f>, Rect, &mut [T]),
 {
     struct Shared<'p, T> {
         pixels: &'p mut [T],

@@ -4,14 +4,12 @@
 //! that differ in one number only: the factor is the least of `sharpness * clearance / distance` along the ray, from
 //! 0 at a hit to 1, where the sharpness is a light's hardness, or the distance to the light over the light's own
 //! clearance (K 6.1), or for a sun the cotangent of half its apparent diameter.
-//!
-//! Ambient occlusion compares the field at five points along the normal with what it would be over an open plane
-//! (Evans 2006; K 6.2).
 
 use crate::light::{Dimming, Incoming, Lamp};
 use crate::march::{Fate, Start};
+use crate::occlusion::Occlusion;
 use crate::packet::Quest;
-use crate::prepare::{Frame, OCCLUSION_SAMPLES, rounding};
+use crate::prepare::{Frame, rounding};
 use crate::trace::{Hit, Tracer};
 use crate::vector::{Triple, add_scaled, dot, length, mix, times};
 use crate::view::{Ray, clip};
@@ -26,9 +24,8 @@ const SHADOW_HIT: f32 = 0.5;
 
 /// Working memory for shading.
 #[derive(Default)]
-pub(crate) struct Shading {
-    /// The unoccluded share of ambient light at each hit.
-    openness: Vec<f32>,
+pub(crate) struct Shading<'f> {
+    occlusion: Occlusion<'f>,
     lit: Vec<Lit>,
 }
 
@@ -42,15 +39,15 @@ struct Lit {
     factor: f32,
 }
 
-impl Tracer<'_> {
+impl<'f> Tracer<'f> {
     /// Writes the colour that each ray of the wave sees.
-    pub(crate) fn shade(&mut self, memory: &mut Shading, colors: &mut Vec<Triple>) {
+    pub(crate) fn shade(&mut self, memory: &mut Shading<'f>, colors: &mut Vec<Triple>) {
         let background = &self.frame.renderer.scene.background;
         colors.clear();
         colors.extend((0..self.rays.count()).map(|ray| seen_behind(background, &self.rays.ray(ray))));
-        self.measure_openness(&mut memory.openness);
+        memory.occlusion.measure(self);
         let ambient = &self.frame.renderer.scene.ambient;
-        for (hit, &openness) in self.hits.iter().zip(&memory.openness) {
+        for (hit, &openness) in self.hits.iter().zip(&memory.occlusion.openness) {
             let around = mix(ambient.ground, ambient.sky, 0.5 + 0.5 * hit.normal[2]);
             let surface = &hit.surface;
             colors[hit.ray as usize] =
@@ -66,33 +63,6 @@ impl Tracer<'_> {
                 let reflected = surface.reflected(light, *normal, *viewer, direction, lit.n_dot_l);
                 *color = add_scaled(*color, lit.factor, reflected);
             }
-        }
-    }
-
-    fn measure_openness(&mut self, openness: &mut Vec<f32>) {
-        openness.clear();
-        openness.resize(self.hits.len(), 1.0);
-        let Some(occlusion) = self.frame.occlusion else { return };
-        let Some(field) = self.everything.as_mut().or(self.marched.as_mut()) else {
-            return;
-        };
-        self.cloud.clear();
-        for hit in &self.hits {
-            for height in occlusion.heights {
-                self.cloud.push(add_scaled(hit.position, height, hit.normal));
-            }
-        }
-        let samples = self.cloud.values(field);
-        self.stats.evaluations += samples;
-        self.stats.rays.occlusion += samples;
-        let values = self.cloud.value.chunks_exact(OCCLUSION_SAMPLES);
-        for (open, values) in openness.iter_mut().zip(values) {
-            let mut occluded = 0.0;
-            for ((value, height), weight) in values.iter().zip(occlusion.heights).zip(occlusion.weights) {
-                // A field that grows faster than the distance must not make up for another sample.
-                occluded += weight * (height - value).max(0.0);
-            }
-            *open = (1.0 - occluded).clamp(0.0, 1.0);
         }
     }
 

@@ -65,8 +65,7 @@ pub(crate) struct Tracer<'f> {
     pub(crate) frame: &'f Frame<'f>,
     pub(crate) marched: Option<Evaluator<'f>>,
     pub(crate) encloser: Option<Encloser<'f>>,
-    pub(crate) everything: Option<Evaluator<'f>>,
-    exact: Vec<Evaluator<'f>>,
+    pub(crate) exact: Vec<Evaluator<'f>>,
     pub(crate) wave: Wave<'f>,
     pub(crate) splitter: Splitter,
     pub(crate) ends: Vec<End>,
@@ -96,7 +95,6 @@ impl<'f> Tracer<'f> {
             frame,
             marched: frame.marched.as_ref().map(evaluator),
             encloser: frame.marched.as_ref().map(|program| Encloser::new(program, frame.level)),
-            everything: frame.everything.as_ref().map(evaluator),
             exact: frame.exact.iter().map(evaluator).collect(),
             wave: Wave::new(frame.way),
             splitter: Splitter::new(frame.level),
@@ -372,7 +370,7 @@ impl Cloud {
         [self.point[0][index], self.point[1][index], self.point[2][index]]
     }
 
-    fn gradient_at(&self, index: usize) -> Triple {
+    pub(crate) fn gradient_at(&self, index: usize) -> Triple {
         [self.gradient[0][index], self.gradient[1][index], self.gradient[2][index]]
     }
 
@@ -380,15 +378,15 @@ impl Cloud {
         Points { x: &point[0], y: &point[1], z: &point[2] }
     }
 
-    /// Computes the field at the points and returns how many there are.
-    pub(crate) fn values(&mut self, field: &mut Evaluator<'_>) -> u64 {
+    /// Computes the field at the points, where `part` holds, and returns how many there are.
+    pub(crate) fn values(&mut self, field: &mut Evaluator<'_>, part: &Part) -> u64 {
         self.value.resize(self.point[0].len(), 0.0);
-        field.values(Self::points(&self.point), &mut self.value);
+        field.values_in(part, Self::points(&self.point), &mut self.value);
         self.value.len() as u64
     }
 
     /// Computes values and gradients at some of the points, where `part` holds, and returns how many there are.
-    fn gradients(&mut self, field: &mut Evaluator<'_>, part: &Part, range: Range<usize>) -> u64 {
+    pub(crate) fn gradients(&mut self, field: &mut Evaluator<'_>, part: &Part, range: Range<usize>) -> u64 {
         let count = self.point[0].len();
         self.value.resize(count, 0.0);
         for numbers in &mut self.gradient {
