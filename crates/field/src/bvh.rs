@@ -134,7 +134,7 @@ impl Bvh {
                 // The bounds of all others are above.
                 NodeKind::Operand(_) => return least,
                 NodeKind::Pair(a, b) => {
-                    waiting.extend([a, b].map(|node| Next { least: self.least(node, place), node }))
+                    waiting.extend([a, b].map(|node| Next { least: self.least(node, place), node }));
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! The value of a union of many shapes at single points, by looking only at those that can be the nearest.
 //!
-//! The shapes hang in a hierarchy of boxes ([`crate::bvh`]). A heap holds what is still to be looked at, ordered by what its
+//! The shapes hang in a hierarchy of boxes (`bvh.rs`). A heap holds what is still to be looked at, ordered by what its
 //! values are at least. Whoever comes out of the heap and lies farther than the least value so far ends the search
 //! (best-first search; Hjaltason and Samet, "Distance Browsing in Spatial Databases", 1999).
 

@@ -79,6 +79,8 @@ pub struct Renderer<'s> {
     pub(crate) paints: Vec<Paint<'s>>,
     /// Whether all regions look alike, so that nobody needs to ask for their shares.
     pub(crate) is_uniform: bool,
+    /// Whether all regions belong to one object.
+    pub(crate) is_one_object: bool,
     /// What field values are multiplied with to get safe steps.
     scale: f64,
     /// Where the marched objects are.
@@ -201,11 +203,13 @@ impl<'s> Renderer<'s> {
         let is_uniform = paints
             .windows(2)
             .all(|pair| std::ptr::eq(pair[0].material, pair[1].material) && pair[0].is_sheet == pair[1].is_sheet);
+        let is_one_object = paints.windows(2).all(|pair| pair[0].object == pair[1].object);
         Ok(Self {
             scene,
             marched: structure,
             paints,
             is_uniform,
+            is_one_object,
             scale: if scale.is_finite() { scale } else { 1.0 },
             bounds,
             exact,

@@ -149,6 +149,7 @@ impl Renderer<'_> {
                     }
                     let wave = first..(first + WAVE).min(out.len());
                     tracer.clear();
+                    tracer.tells_objects = true;
                     for ray in wave.clone() {
                         tracer.push(order.center(ray));
                     }

@@ -6,7 +6,7 @@
 use crate::march::{End, Fate, Start};
 use crate::material::{Footprint, Surface};
 use crate::packet::{Manner, Quest, Space};
-use crate::prepare::{Frame, rounding};
+use crate::prepare::{Frame, Renderer, rounding};
 use crate::rays::Rays;
 use crate::stats::Stats;
 use crate::vector::{Triple, add_scaled, dot, length, scaled};
@@ -31,7 +31,8 @@ const CREEPING: f32 = 64.0;
 pub(crate) struct Hit {
     /// The ray's place in its wave.
     pub(crate) ray: u32,
-    /// The object's place in the scene; the one with the largest share.
+    /// The object's place in the scene; the one with the largest share. One of those that look like it, unless
+    /// [`Tracer::tells_objects`].
     pub(crate) object: u32,
     /// Relative to the frame's origin.
     pub(crate) position: Triple,
@@ -78,6 +79,8 @@ pub(crate) struct Tracer<'f> {
     /// Rays of the last wave that ran out of steps.
     pub(crate) unresolved: Vec<u32>,
     pub(crate) stats: Stats,
+    /// Whether hits tell objects apart that look alike.
+    pub(crate) tells_objects: bool,
 }
 
 /// Points with room for what is computed at them.
@@ -106,6 +109,7 @@ impl<'f> Tracer<'f> {
             hits: Vec::new(),
             unresolved: Vec::new(),
             stats: Stats::default(),
+            tells_objects: false,
         }
     }
 
@@ -208,10 +212,12 @@ impl<'f> Tracer<'f> {
         if self.landings.is_empty() {
             return;
         }
+        let Renderer { is_uniform, is_one_object, .. } = *frame.renderer;
+        let matters = !is_uniform || (self.tells_objects && !is_one_object);
         for landings in self.landings.chunk_by(|a, b| std::ptr::eq(a.cell, b.cell)) {
             let part = landings[0].cell.part();
             // Most cells hold one region, which has it all.
-            let asks_for_shares = !frame.renderer.is_uniform && part.region_count() > 1;
+            let asks_for_shares = part.region_count() > 1 && matters;
             if asks_for_shares {
                 self.cloud.clear();
                 for landing in landings {

@@ -100,6 +100,17 @@ fn a_camera_inside_an_object_sees_its_material_and_says_so() {
 }
 
 #[test]
+fn layers_tell_objects_apart_that_look_alike() {
+    let mut scene = Scene { camera: Some(from_above(8.0, 4.0)), ..dark() };
+    for x in [-1.0, 0.0, 1.0] {
+        scene.objects.push(Object { name: x.to_string(), material: None, shape: sphere(0.4).at([x, 0.0, 0.0]) });
+    }
+    let layers = Renderer::new(&scene).expect("sound").layers(&options(40, 40), &()).expect("layers").0;
+    let at = |column: usize| layers.pixels()[20 * 40 + column].object;
+    assert_eq!([at(10), at(15), at(20), at(30)], [Some(0), None, Some(1), Some(2)]);
+}
+
+#[test]
 fn a_flat_field_makes_no_false_hits() {
     // Stretched a hundred times along y, a ball's field falls to a hundredth of the distance beyond its tips. Stopping by
     // value alone would lengthen the needle by a hundred tolerances, here by 0.5.
