@@ -56,6 +56,8 @@ fn install_graphics_software() -> Result {
         return Ok(());
     }
     eprintln!("xtask: installing the package {GPU_SOFTWARE}, which stands in for a graphics processor");
+    // Without lists of packages nothing can be installed; if they can't be brought up to date, old ones may do.
+    let _ = run(&root(), "apt-get", &["update", "-q"]);
     let install = ["install", "-y", "-q", GPU_SOFTWARE];
     run(&root(), "apt-get", &install)
         .map_err(|error| format!("{error}; the tests of graphics processors need this package, or a driver for Vulkan"))

@@ -1,7 +1,7 @@
 //! The form that all shader text goes through: modules of typed functions, without anything that only one language has.
 //!
 //! Two printers make text of it, [`crate::wgsl`] and [`crate::glsl`]. It comes from two sources: the formulas of shapes
-//! ([`crate::formula`]), and the library of tracing and lighting, which is written in a part of WGSL and read by
+//! (`formula.rs`), and the library of tracing and lighting, which is written in a part of WGSL and read by
 //! [`crate::parse`]. Every binding states its type, so that no printer has to infer one.
 
 /// The type of a value.
