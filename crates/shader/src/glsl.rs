@@ -11,14 +11,32 @@ pub enum Table {
     Numbers,
     /// In an array of vectors of four numbers, which is how uniforms are packed.
     Vectors,
+    /// In blocks of as many vectors of four numbers as a block can hold anywhere, [`BLOCK_VECTORS`], called `parameters[n].block`;
+    /// places that are computed go through the function `parameter`.
+    Blocks,
     /// In a texture of vectors of four numbers, through the function `parameter`.
     Texture,
 }
 
+/// Vectors of four numbers in a block of uniforms: the 16 KB that WebGL 2 guarantees.
+pub const BLOCK_VECTORS: usize = 1024;
+
 /// The text of some items. Parameters are read from what is called `parameters`.
 pub fn items(items: &[Item], table: Table) -> String {
-    print::items(&Glsl { table }, items)
+    format!("{SELECT}\n{}", print::items(&Glsl { table }, items))
 }
+
+/// Selections without branches. The conditional operator is one for some drivers, which compile a scene with hundreds of them
+/// ten times as long.
+const SELECT: &str = "\
+// The second value if the condition holds, otherwise the first one.
+float select(float no, float yes, bool condition) { return mix(no, yes, condition); }
+vec2 select(vec2 no, vec2 yes, bool condition) { return mix(no, yes, bvec2(condition)); }
+vec3 select(vec3 no, vec3 yes, bool condition) { return mix(no, yes, bvec3(condition)); }
+vec4 select(vec4 no, vec4 yes, bool condition) { return mix(no, yes, bvec4(condition)); }
+int select(int no, int yes, bool condition) { return condition ? yes : no; }
+bool select(bool no, bool yes, bool condition) { return condition ? yes : no; }
+";
 
 struct Glsl {
     table: Table,
@@ -122,15 +140,20 @@ impl Language for Glsl {
             (Table::Vectors, Ok(place)) => {
                 format!("parameters[{}].{}", place / 4, ["x", "y", "z", "w"][place % 4])
             }
+            (Table::Blocks, Ok(place)) => {
+                let vector = place / 4;
+                let (block, vector) = (vector / BLOCK_VECTORS, vector % BLOCK_VECTORS);
+                format!("parameters[{block}].block[{vector}].{}", ["x", "y", "z", "w"][place % 4])
+            }
             (Table::Numbers, Ok(place)) => format!("parameters[{place}]"),
             (Table::Numbers, Err(place)) => format!("parameters[{place}]"),
             (Table::Texture, Ok(place)) => format!("parameter({place})"),
-            (Table::Vectors | Table::Texture, Err(place)) => format!("parameter({place})"),
+            (Table::Vectors | Table::Blocks | Table::Texture, Err(place)) => format!("parameter({place})"),
         }
     }
 
     fn select(&self, condition: &str, yes: &str, no: &str) -> String {
-        format!("({condition} ? {yes} : {no})")
+        format!("select({no}, {yes}, {condition})")
     }
 
     fn name(&self, name: &str) -> String {

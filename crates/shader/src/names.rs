@@ -15,7 +15,7 @@ const TAKEN: &str = "\
     lowp macro main mainImage mat2 mat3 mat4 match matrix max mediump meta metal min mix mod modf module move mul mut mutable \
     namespace new nil noexcept noinline noise normalize not null nullptr of operator out output outerProduct override package \
     parameter parameters partition pass patch point pow precise precision premerge private protected ptr pub public radians \
-    readonly ref reflect refract register require resource restrict return round row_major rsqrt sample sampler saturate self \
+    readonly ref reflect refract register require resource restrict return round row_major rsqrt sample sampler saturate select self \
     set shared short sign signed sin sincos sinh sizeof smooth smoothstep snorm sqrt static std step struct \
     subroutine super switch target technique template texture this thread threadgroup throw trait transpose true trunc try type \
     typedef typename uint uniform union unless unorm unsafe unsigned unsized use using var varying vec2 vec3 vec4 vertex view \

@@ -1,6 +1,6 @@
 //! The shells around the common text: what each language and host wants of a shader.
 
-use crate::glsl::Table;
+use crate::glsl::{BLOCK_VECTORS, Table};
 use crate::shader::{Parameters, Shader, ShaderError};
 use crate::{glsl, wgsl};
 use std::fmt::Write;
@@ -44,12 +44,16 @@ impl Target {
 /// WebGL 2 guarantees this many vectors of uniforms; a few are left for others.
 const MOST_UNIFORMS: usize = 220;
 
+/// WebGL 2 guarantees this many blocks of uniforms in a fragment shader.
+const MOST_BLOCKS: usize = 12;
+
 /// Vectors in a row of the texture that holds larger tables.
 pub const TEXTURE_WIDTH: usize = 256;
 
 impl Shader {
     /// The text for a target. Only that for Shadertoy depends on the numbers; its host has no place for them outside the text.
-    /// That for WebGL 2 depends on how many there are: up to 220 vectors are uniforms, more come in a texture.
+    /// That for WebGL 2 depends on how many there are: up to 220 vectors of four are uniforms, up to 12 times [`glsl::BLOCK_VECTORS`] come in
+    /// blocks of uniforms, more in a texture.
     ///
     /// # Errors
     /// If the text does not pass validation, which would be a mistake of this crate.
@@ -76,22 +80,16 @@ impl Shader {
 
     fn webgl(&self, parameters: &Parameters) -> String {
         let count = parameters.numbers().len().div_ceil(4);
-        let is_small = count <= MOST_UNIFORMS;
+        let table = match count {
+            0..=MOST_UNIFORMS => Table::Vectors,
+            _ if count <= MOST_BLOCKS * BLOCK_VECTORS => Table::Blocks,
+            _ => Table::Texture,
+        };
         let mut text = String::from("#version 300 es\nprecision highp float;\nprecision highp int;\n\n");
         text.push_str(GLSL_VIEW);
         text.push_str("uniform View view;\n\n");
-        if is_small {
-            let _ = writeln!(text, "uniform vec4 parameters[{count}];\n");
-            text.push_str("float parameter(int place) {\n    return parameters[place >> 2][place & 3];\n}\n\n");
-        } else {
-            text.push_str("precision highp sampler2D;\nuniform sampler2D parameters;\n\n");
-            let _ = writeln!(
-                text,
-                "float parameter(int place) {{\n    int texel = place >> 2;\n    return texelFetch(parameters, \
-                 ivec2(texel % {TEXTURE_WIDTH}, texel / {TEXTURE_WIDTH}), 0)[place & 3];\n}}\n"
-            );
-        }
-        text.push_str(&glsl::items(self.items(), if is_small { Table::Vectors } else { Table::Texture }));
+        text.push_str(&webgl_table(table, count));
+        text.push_str(&glsl::items(self.items(), table));
         text.push_str(WEBGL_SHELL);
         text
     }
@@ -135,6 +133,37 @@ impl Shader {
             naga::back::msl::write_string(&module, &info, &options, &naga::back::msl::PipelineOptions::default())
                 .map_err(|error| ShaderError::Invalid(error.to_string()))?;
         Ok(text)
+    }
+}
+
+/// How a shader for WebGL 2 comes by its parameters: their declaration, and the function for places that are computed.
+fn webgl_table(table: Table, count: usize) -> String {
+    match table {
+        Table::Numbers | Table::Vectors => format!(
+            "uniform vec4 parameters[{count}];\n\nfloat parameter(int place) {{\n    return parameters[place >> 2][place & 3];\n}}\n\n"
+        ),
+        Table::Blocks => {
+            // Blocks are told apart by literals only.
+            let blocks = count.div_ceil(BLOCK_VECTORS);
+            let mut text = format!(
+                "layout(std140) uniform Parameters {{\n    vec4 block[{BLOCK_VECTORS}];\n}} parameters[{blocks}];\n\n\
+                 float parameter(int place) {{\n    int vector = place >> 2;\n"
+            );
+            for block in 0..blocks {
+                let end = (block + 1) * BLOCK_VECTORS;
+                let condition = if block + 1 == blocks { String::new() } else { format!("if (vector < {end}) ") };
+                let _ = writeln!(
+                    text,
+                    "    {condition}return parameters[{block}].block[vector - {}][place & 3];",
+                    block * BLOCK_VECTORS
+                );
+            }
+            text + "}\n\n"
+        }
+        Table::Texture => format!(
+            "precision highp sampler2D;\nuniform sampler2D parameters;\n\nfloat parameter(int place) {{\n    int texel = place >> 2;\n    \
+             return texelFetch(parameters, ivec2(texel % {TEXTURE_WIDTH}, texel / {TEXTURE_WIDTH}), 0)[place & 3];\n}}\n\n"
+        ),
     }
 }
 

@@ -1,0 +1,250 @@
+//! Pictures that a browser draws from the text for WebGL 2, and from the text for Shadertoy in a page with Shadertoy's inputs: they
+//! have to look like those of the processor.
+//!
+//! `cargo xtask test-browser` installs what this needs (Node.js with `playwright-core`, Chromium) and runs it. Screenshots stay in
+//! `target/tmp/browser`.
+
+mod common;
+
+use common::{read, scene, scene_of};
+use freikugel_render::{Options, Tone, render};
+use freikugel_scene::{Light, Scene, Sun};
+use freikugel_shader::glsl::BLOCK_VECTORS;
+use freikugel_shader::{Parameters, Shader, TEXTURE_WIDTH, Target};
+use glam::{DMat3, DVec3};
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The size of all pictures. There is one ray a pixel: the browser gives bytes, which can't be averaged.
+const SIZE: [u32; 2] = [160, 90];
+
+/// How much a picture may differ on the mean over all channels, of 255.
+const MEAN: f64 = 0.5;
+
+/// How far a channel of a pixel may be off, of 255, unless its pixel counts as an outlier.
+const FAR: u8 = 8;
+
+/// The part of the pixels that may be outliers. With one ray a pixel, each ray that grazes an edge is a whole one.
+const OUTLIERS: f64 = 2e-3;
+
+/// What is as fine as a pixel everywhere, such as a fractal, looks different as soon as rays stop elsewhere within their
+/// tolerance. There the processor is compared with itself, going steps of this length, and the browser may differ this many
+/// times as much.
+const OTHER_STEPS: f64 = 0.95;
+const RESTLESS: f64 = 2.0;
+
+/// Scenes of the repository that are drawn.
+const SCENES: [&str; 9] = [
+    "first-light",
+    "sources/blends",
+    "sources/column-with-bowl",
+    "bench/s1-csg",
+    "tracers/thin",
+    "shapes/formula",
+    "shapes/warp",
+    "shapes/sheet",
+    "shapes/quaternion_julia",
+];
+
+/// Objects of the large scene: too many for single uniforms.
+const MANY: usize = 100;
+
+/// Lights of the scene that is too large even for blocks of uniforms.
+const MANY_LIGHTS: usize = 3000;
+
+/// A picture for the browser, and what it has to look like.
+struct Job {
+    name: String,
+    target: Target,
+    text: String,
+    table: Vec<f32>,
+    /// Shadertoy's `iMouse`.
+    mouse: [f32; 4],
+    /// The scene as the browser should show it, and the processor's picture of it.
+    scene: Scene,
+    expected: Vec<u8>,
+}
+
+/// How much two pictures differ.
+struct Difference {
+    mean: f64,
+    outliers: usize,
+}
+
+impl Difference {
+    fn of(a: &[u8], b: &[u8]) -> Self {
+        assert_eq!(a.len(), b.len());
+        let off: Vec<u8> = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).collect();
+        Self {
+            mean: off.iter().map(|&channel| f64::from(channel)).sum::<f64>() / off.len() as f64,
+            outliers: off.chunks_exact(3).filter(|pixel| pixel.iter().any(|&channel| channel > FAR)).count(),
+        }
+    }
+
+    /// Whether it is more than pictures of this scene may differ.
+    fn is_too_large(&self, scene: &Scene, expected: &[u8]) -> bool {
+        let few = OUTLIERS * f64::from(SIZE[0] * SIZE[1]);
+        if self.mean <= MEAN && self.outliers as f64 <= few {
+            return false;
+        }
+        let mut other = scene.clone();
+        other.tracer.step_factor *= OTHER_STEPS;
+        let own = Self::of(&on_cpu(&other), expected);
+        println!("    the processor differs from itself by {:.4} in {} pixels", own.mean, own.outliers);
+        self.mean > MEAN.max(RESTLESS * own.mean) || self.outliers as f64 > few.max(RESTLESS * own.outliers as f64)
+    }
+}
+
+fn sized(mut scene: Scene) -> Scene {
+    [scene.picture.width, scene.picture.height] = SIZE;
+    scene.picture.samples = 1;
+    scene
+}
+
+fn on_cpu(scene: &Scene) -> Vec<u8> {
+    let rendered = render(scene, &Options::of(scene), &()).expect("a picture");
+    rendered.image.to_srgb8(&Tone::of(&scene.picture))
+}
+
+/// The jobs of a scene, one for each target.
+fn jobs(name: &str, scene: Scene) -> Vec<Job> {
+    let scene = sized(scene);
+    let expected = on_cpu(&scene);
+    let shader = Shader::new(&scene).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let parameters = shader.parameters(&scene).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let job = |(target, kind): (Target, &str)| Job {
+        name: format!("{}-{kind}", name.replace('/', "-")),
+        target,
+        text: text(&shader, target, &parameters),
+        table: parameters.numbers().to_vec(),
+        mouse: [0.0; 4],
+        scene: scene.clone(),
+        expected: expected.clone(),
+    };
+    [(Target::Glsl, "webgl"), (Target::Shadertoy, "shadertoy")].map(job).into()
+}
+
+fn text(shader: &Shader, target: Target, parameters: &Parameters) -> String {
+    shader.text(target, parameters).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A scene of many primitives on a plane.
+fn many() -> Scene {
+    let mut objects = String::from(r#"{ "material": "m0", "shape": { "plane": {} } }"#);
+    for index in 0..MANY {
+        let (column, row) = (index % 10, index / 10);
+        let shape = match index % 4 {
+            0 => r#"{ "sphere": { "radius": 0.4 } }"#,
+            1 => r#"{ "box": { "size": 0.6, "round": 0.05 } }"#,
+            2 => r#"{ "torus": { "major": 0.3, "minor": 0.1 } }"#,
+            _ => r#"{ "cylinder": { "radius": 0.3, "height": 0.7 } }"#,
+        };
+        let (x, y) = (column as f64 - 4.5, row as f64 - 4.5);
+        let _ = write!(
+            objects,
+            r#", {{ "material": "m{}", "shape": {{ "translate": {{ "by": [{x}, {y}, 0.4], "shape": {shape} }} }} }}"#,
+            index % 3
+        );
+    }
+    let materials = r##""m0": { "color": "#b0b0a8" }, "m1": { "color": "#c8825a" }, "m2": { "color": "#5a82c8" }"##;
+    let camera = r#"{ "eye": [6, -12, 8], "target": [0, -0.5, 0], "fov": 38 }"#;
+    let text =
+        format!(r#"{{ "version": 1, "camera": {camera}, "materials": {{ {materials} }}, "objects": [{objects}] }}"#);
+    scene(&text, "many objects")
+}
+
+/// A scene whose lights have so many numbers that no blocks of uniforms hold them. All but one are dark.
+fn many_lights() -> Scene {
+    let mut scene = scene_of(r#"{ "box": { "size": [1.2, 1, 0.8] } }"#);
+    let lit = Light::Sun(Sun { direction: DVec3::new(-1.0, -2.0, 2.0), ..Sun::default() });
+    let dark = Light::Sun(Sun { intensity: 0.0, ..Sun::default() });
+    scene.lights = vec![dark; MANY_LIGHTS];
+    scene.lights.push(lit);
+    scene
+}
+
+/// Shadertoy's picture while the mouse is dragged to a place, and the processor's from where the camera then is.
+fn dragged(name: &str, scene: Scene, mouse: f32) -> Job {
+    let scene = sized(scene);
+    let shader = Shader::new(&scene).expect("a shader");
+    let parameters = shader.parameters(&scene).expect("parameters");
+    let angle = TAU * (0.5 - f64::from(mouse));
+    let mut turned = scene.clone();
+    let camera = turned.camera.as_mut().expect("a camera of its own");
+    camera.eye = camera.target + DMat3::from_axis_angle(DVec3::Z, angle) * (camera.eye - camera.target);
+    let place = [mouse * SIZE[0] as f32, 0.5 * SIZE[1] as f32];
+    Job {
+        name: name.to_owned(),
+        target: Target::Shadertoy,
+        text: text(&shader, Target::Shadertoy, &parameters),
+        table: Vec::new(),
+        mouse: [place[0], place[1], place[0], place[1]],
+        expected: on_cpu(&turned),
+        scene: turned,
+    }
+}
+
+/// Has the browser draw all jobs, and gives what it says to each: where the parameters were, and its times.
+fn draw(jobs: &[Job]) -> (PathBuf, HashMap<String, String>) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("browser");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder for pictures");
+    let mut list = Vec::new();
+    for Job { name, target, text, table, mouse, .. } in jobs {
+        let write = |ending: &str, bytes: &[u8]| {
+            std::fs::write(folder.join(format!("{name}.{ending}")), bytes).expect("a file for the browser");
+        };
+        write("glsl", text.as_bytes());
+        write("f32", &table.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>());
+        let kind = if *target == Target::Shadertoy { "shadertoy" } else { "webgl" };
+        let [width, height] = SIZE;
+        list.push(format!(
+            r#"{{ "name": "{name}", "kind": "{kind}", "width": {width}, "height": {height}, "blockVectors": {BLOCK_VECTORS}, "textureWidth": {TEXTURE_WIDTH}, "mouse": {mouse:?} }}"#
+        ));
+    }
+    std::fs::write(folder.join("jobs.json"), format!("[{}]", list.join(",\n"))).expect("a list for the browser");
+    let driver = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/browser/run.mjs");
+    let output = Command::new("node")
+        .arg(driver)
+        .arg(&folder)
+        .output()
+        .unwrap_or_else(|error| panic!("this test needs Node.js: {error}; `cargo xtask test-browser` sets it up"));
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}\n`cargo xtask test-browser` installs what is missing");
+    let lines = String::from_utf8(output.stdout).expect("text");
+    let said = lines.lines().filter_map(|line| line.split_once('\t')).map(|(name, rest)| (name.into(), rest.into()));
+    (folder, said.collect())
+}
+
+#[test]
+#[ignore = "needs a browser: cargo xtask test-browser"]
+fn browsers_draw_what_the_processor_draws() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let file = |name: &str| read(&folder.join(name).with_extension("json"));
+    let mut all: Vec<Job> = SCENES.iter().flat_map(|name| jobs(name, file(name))).collect();
+    all.extend(jobs("many", many()));
+    // As a constant in a text, that many numbers are of no use.
+    all.extend(jobs("lights", many_lights()).into_iter().filter(|job| job.target == Target::Glsl));
+    // To the middle, which is where the camera is; and a quarter turn.
+    all.push(dragged("drag-middle", file("first-light"), 0.5));
+    all.push(dragged("drag-quarter", file("first-light"), 0.25));
+
+    let (folder, said) = draw(&all);
+    let mut faults = Vec::new();
+    for Job { name, scene, expected, .. } in &all {
+        let found = std::fs::read(folder.join(format!("{name}.rgb"))).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let difference = Difference::of(&found, expected);
+        let Difference { mean, outliers } = difference;
+        let summary = format!("{name}: mean {mean:.4} of 255, {outliers} pixels off by more than {FAR}");
+        println!("{summary}; {}", said[name].replace('\t', ", "));
+        if difference.is_too_large(scene, expected) {
+            faults.push(summary);
+        }
+    }
+    assert!(faults.is_empty(), "{} pictures differ:\n{}", faults.len(), faults.join("\n"));
+    let way = |name: &str| said[name].split('\t').next().expect("a word").to_owned();
+    assert_eq!(["shapes-sheet-webgl", "many-webgl", "lights-webgl"].map(way), ["uniforms", "blocks", "texture"]);
+}
