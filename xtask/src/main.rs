@@ -1,5 +1,6 @@
 //! The project's own chores: `cargo xtask help` lists them.
 
+mod browser;
 mod gallery;
 mod probe;
 mod run;
@@ -13,6 +14,7 @@ usage: cargo xtask COMMAND
 
   test          everything a change must pass; installs what it needs and says so
   test-gpu      the part of it that needs a graphics processor, or software that stands in for one
+  test-browser  the part of it that needs a browser
   shapes        writes the list of shapes from the files under crates/field/src/shapes
   schema        writes schema/scene.schema.json
   gallery       renders all scenes and contact sheets into gallery/
@@ -24,6 +26,7 @@ fn main() -> ExitCode {
     let result = match args.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["test"] => test::all(),
         ["test-gpu"] => test::on_graphics_processor(),
+        ["test-browser"] => browser::test(),
         ["shapes"] => shapes::write(&run::root()),
         ["schema"] => run::schema(&run::root()),
         ["gallery"] => gallery::gallery(),

@@ -1,7 +1,7 @@
 //! Everything a change must pass.
 
 use crate::run::{Result, SCHEMA, output, root, run, run_with};
-use crate::{probe, shapes};
+use crate::{browser, probe, shapes};
 use std::process::Command;
 
 /// Runs all checks, the quick ones first.
@@ -24,6 +24,7 @@ pub(crate) fn all() -> Result {
     )?;
     probe::shape()?;
     on_graphics_processor()?;
+    browser::test()?;
     install_deny()?;
     run(&root, "cargo", &["deny", "--log-level", "error", "check", "licenses", "bans", "sources"])?;
     eprintln!("xtask: all checks passed");
