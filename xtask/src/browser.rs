@@ -42,6 +42,8 @@ fn install(packages: &str, need: &str) -> Result {
         return Err(format!("{need}; please install it"));
     }
     eprintln!("xtask: installing {packages}");
+    // Without lists of packages nothing can be installed; if they can't be brought up to date, old ones may do.
+    let _ = run(&root(), "apt-get", &["update", "-q"]);
     let names: Vec<&str> = packages.split(' ').collect();
     run(&root(), "apt-get", &[&["install", "-y", "-q", "--no-install-recommends"][..], &names].concat())
         .map_err(|error| format!("{error}; {need}"))
