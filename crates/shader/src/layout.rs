@@ -33,9 +33,9 @@ const HEADER: &[(&str, usize)] = &[
 ];
 
 /// Numbers of a part: the middle of its box and half its edges, what its values are multiplied with for steps, and how much
-/// its box is larger than needed; the number of its form, the place of its constants, and whether
-/// its values are distances (0), warped distances (1) or have no scale (2).
-pub(crate) const PART_SIZE: usize = 11;
+/// its box is larger than needed; the number of its form, the place of its constants, whether
+/// its values are distances (0), warped distances (1) or have no scale (2); and how fast its slope can fall along a line, or -1.
+pub(crate) const PART_SIZE: usize = 12;
 /// Numbers of a group of parts: the middle of its box and half its edges.
 pub(crate) const GROUP_SIZE: usize = 6;
 /// Numbers of a plane: normal, offset, whether it is a sheet, and the slope of its field.

@@ -53,6 +53,7 @@
 
 #![forbid(unsafe_code)]
 
+mod curvature;
 mod formula;
 pub mod glsl;
 mod helpers;

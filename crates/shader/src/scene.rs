@@ -1,4 +1,4 @@
-//! From a scene to the functions that only its own shader has: `nearest`, `whole`, `part_gradient`, `surface_at`, and one for
+//! From a scene to the functions that only its own shader has: `nearest`, `free_ahead`, `unscaled`, `whole`, `part_gradient`, `surface_at`, and one for
 //! each part that is more than a call.
 
 use crate::helpers::{Base, Helpers, Want};
@@ -40,8 +40,9 @@ pub(crate) fn items(parts: &[Part], kinds: &[usize], layout: &Layout, mut helper
     let surfaces = surface_at(parts, &names, layout, &mut helpers, &mut own);
     let has_steps = parts.iter().any(|part| !part.is_measured);
     let nearest = nearest(parts, &names, &values, layout);
-    let whole = whole(parts, &names, &values, layout, has_steps);
-    let last = [nearest, whole, part_gradient(&gradients), whole_gradient(), surfaces];
+    let unscaled = unscaled(parts, &names, &values, layout, has_steps);
+    let free_ahead = free_ahead(parts, &names, &values, &gradients, kinds, layout);
+    let last = [nearest, free_ahead, unscaled, whole(layout), part_gradient(&gradients), whole_gradient(), surfaces];
     helpers.functions.into_iter().chain(own).chain(last).map(Item::Function).collect()
 }
 
@@ -165,20 +166,74 @@ fn nearest(parts: &[Part], names: &[String], values: &[Expr], layout: &Layout) -
     of_point("nearest", comment, Type::Vector(2), body)
 }
 
-fn whole(parts: &[Part], names: &[String], values: &[Expr], layout: &Layout, has_steps: bool) -> Function {
-    let planes = |so_far: Expr| match layout.plane_count {
-        0 => so_far,
-        _ => Expr::call("nearest_plane", [so_far, Expr::name("p")]),
-    };
+/// As `nearest`, but along a ray: formulas are looked at by their slopes.
+fn free_ahead(
+    parts: &[Part],
+    names: &[String],
+    values: &[Expr],
+    gradients: &[Expr],
+    kinds: &[usize],
+    layout: &Layout,
+) -> Function {
+    let mut body = vec![Statement::Var("free".into(), Type::Float, Expr::name("FAR"))];
+    let free = || Expr::name("free");
+    let least = |value: Expr| Statement::Assign(free(), Expr::call("min", [free(), value]));
+    let scale = Expr::Parameter(Box::new(Expr::name("SCALE")));
+    // Without formulas nobody asks.
+    let asked = if parts.iter().all(|part| part.is_measured) { &[] } else { parts };
+    for (index, part) in asked.iter().enumerate() {
+        let place = layout.parts + PART_SIZE * index;
+        if part.is_measured {
+            let is_nearer = Expr::binary(Operator::Less, apart(place) * scale.clone(), free());
+            let value = least(values[index].clone() * scale.clone());
+            body.push(Statement::If(is_nearer, vec![value], Vec::new()));
+            continue;
+        }
+        let far = format!("{}_apart", names[index]);
+        let here = format!("{}_here", names[index]);
+        let ahead = Expr::call(
+            "ahead",
+            [
+                Expr::name(&*here),
+                Expr::name("direction"),
+                Expr::parameter(place + 11),
+                Expr::parameter(place + 6) * scale.clone(),
+            ],
+        );
+        body.push(Statement::Let(far.clone(), Type::Float, apart(place)));
+        body.push(Statement::If(
+            Expr::binary(Operator::Greater, Expr::name(&*far), Expr::Float(0.0)),
+            vec![least((Expr::name(&*far) + Expr::parameter(place + 7)) * scale.clone())],
+            vec![Statement::Let(here, Type::Vector(4), gradients[kinds[index]].clone()), least(ahead)],
+        ));
+    }
+    body.push(Statement::Return(free()));
+    let arguments = vec![("p".into(), Type::Vector(3)), ("direction".into(), Type::Vector(3))];
+    let comment = vec!["How far a ray may go from a point in a direction.".into()];
+    Function { name: "free_ahead".into(), comment, arguments, result: Type::Float, body }
+}
+
+/// The union of all marched parts, each by its own value.
+fn unscaled(parts: &[Part], names: &[String], values: &[Expr], layout: &Layout, has_steps: bool) -> Function {
     let mut body = Vec::new();
     if has_steps {
         body = search(parts, layout, |index| tried(&values[index], &names[index], index));
-        body.push(Statement::Return(planes(Expr::name("d"))));
+        body.push(Statement::Return(Expr::name("d")));
     } else {
-        body.push(Statement::Return(planes(Expr::call("nearest", [Expr::name("p")]))));
+        body.push(Statement::Return(Expr::call("nearest", [Expr::name("p")])));
     }
+    let comment = vec!["The field of all that is marched at a point, and the part that it belongs to.".into()];
+    of_point("unscaled", comment, Type::Vector(2), body)
+}
+
+fn whole(layout: &Layout) -> Function {
+    let marched = Expr::call("unscaled", [Expr::name("p")]);
+    let whole = match layout.plane_count {
+        0 => marched,
+        _ => Expr::call("nearest_plane", [marched, Expr::name("p")]),
+    };
     let comment = vec!["The field of the whole scene at a point, and the part that it belongs to.".into()];
-    of_point("whole", comment, Type::Vector(2), body)
+    of_point("whole", comment, Type::Vector(2), vec![Statement::Return(whole)])
 }
 
 fn is_part(index: usize) -> Expr {

@@ -1,5 +1,6 @@
 //! A scene as a shader: its text, which no number changes, and its numbers.
 
+use crate::curvature::curvature;
 use crate::helpers::Helpers;
 use crate::layout::{GROUP, GROUP_SIZE, LIGHT_SIZE, Layout, PART_SIZE, PLANE_SIZE, REGION_SIZE, write};
 use crate::module::needed;
@@ -10,7 +11,7 @@ use crate::part::{Part, Source, outline_key, sources};
 use crate::scene;
 use crate::tree::Item;
 use freikugel_field::shape::ExactForm;
-use freikugel_field::{Aabb, Action, Diagnostic, Extent, Field, Limits, MaterialId, Structure, find_extent};
+use freikugel_field::{Aabb, Action, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Structure, find_extent};
 use freikugel_render::plan::PlannedObject;
 use freikugel_render::{Plan, PrepareError};
 use freikugel_scene::{Light, Material, Model, Pattern, Scene};
@@ -96,7 +97,9 @@ impl Shader {
         let mut names = Names::new();
         let library: Vec<Item> = LIBRARY.iter().flat_map(|text| parse(text).expect("the library is sound")).collect();
         library.iter().for_each(|item| names.take(item.name()));
-        ["nearest", "whole", "part_gradient", "field_gradient", "surface_at"].iter().for_each(|name| names.take(name));
+        ["nearest", "free_ahead", "unscaled", "whole", "part_gradient", "field_gradient", "surface_at"]
+            .iter()
+            .for_each(|name| names.take(name));
         let mut all = layout.items();
         all.extend(library);
         let kinds = scene::kinds(&parts);
@@ -149,6 +152,13 @@ impl Shader {
                     (widened, 1.0 / (slope * plan.scale), margin)
                 }
             };
+            let fall = match bounds {
+                Some(Aabb { min, max }) if !part.is_measured => {
+                    let side = |axis: usize| Interval::new(min[axis], max[axis]);
+                    curvature(&part.structure.program(DVec3::ZERO), [0, 1, 2].map(side))
+                }
+                _ => None,
+            };
             let place = self.layout.parts + PART_SIZE * index;
             write_box(&mut numbers[place..], bounds, plan.origin);
             let kind = self.kinds[index] as f64;
@@ -160,7 +170,10 @@ impl Shader {
             } else {
                 1.0
             };
-            write(&mut numbers[place + 6..], &[factor, margin, kind, self.parts[index].base as f64, metric]);
+            write(
+                &mut numbers[place + 6..],
+                &[factor, margin, kind, self.parts[index].base as f64, metric, fall.unwrap_or(-1.0)],
+            );
             boxes.push(bounds);
             for (region, &place) in part.structure.regions().iter().zip(&self.parts[index].regions) {
                 self.write_region(&mut numbers, place, part.source.object, region.material, scene, &plan);

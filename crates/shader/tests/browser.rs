@@ -37,11 +37,12 @@ const OTHER_STEPS: f64 = 0.95;
 const RESTLESS: f64 = 2.0;
 
 /// Scenes of the repository that are drawn.
-const SCENES: [&str; 9] = [
+const SCENES: [&str; 10] = [
     "first-light",
     "sources/blends",
     "sources/column-with-bowl",
     "bench/s1-csg",
+    "bench/s2-quartic",
     "tracers/thin",
     "shapes/formula",
     "shapes/warp",

@@ -144,7 +144,10 @@ fn shadow(first: i32, hit: Hit, incoming_light: Incoming) -> f32 {
         if (near.y >= 0.0 && value < base * share_at(near.y) + growth * t) {
             return 0.0;
         }
-        let clearance: f32 = value * parameters[SCALE];
+        var clearance: f32 = value * parameters[SCALE];
+        if (!is_soft && is_formula(near.y)) {
+            clearance = max(clearance, free_ahead(ray.origin + t * ray.direction, ray.direction));
+        }
         var step_length: f32 = clearance;
         if (is_soft) {
             let here: f32 = sharpness * seen_clearance(near, ray.origin + t * ray.direction) / max(t, 1e-30);
@@ -168,6 +171,21 @@ fn shadow(first: i32, hit: Hit, incoming_light: Incoming) -> f32 {
     return factor;
 }
 
+// How far away the nearest surface seems to be from a point that need not be outside of all. What has no scale, or a warped one,
+// is divided by its slope there, which is right to first order; without a slope nothing is known to be near.
+fn clearance(p: vec3<f32>) -> f32 {
+    let near: vec2<f32> = unscaled(p);
+    var free: f32 = near.x;
+    if (FORMULA_COUNT > 0 && near.y >= 0.0) {
+        if (parameters[PARTS + PART_SIZE * i32(near.y) + 10] > 0.0) {
+            let value: vec4<f32> = part_gradient(i32(near.y), p);
+            let steepness: f32 = length(value.xyz);
+            free = select(FAR, max(value.w, 0.0) / max(steepness, 1e-30), steepness > 0.0);
+        }
+    }
+    return nearest_plane(vec2<f32>(free, -1.0), p).x;
+}
+
 // The share of the ambient light that the surroundings of a hit leave.
 fn openness(hit: Hit) -> f32 {
     var occluded: f32 = 0.0;
@@ -175,7 +193,7 @@ fn openness(hit: Hit) -> f32 {
         let weight: f32 = parameters[OCCLUSION + 5 + i];
         if (weight > 0.0) {
             let height: f32 = parameters[OCCLUSION + i];
-            occluded += weight * max(height - whole(hit.position + height * hit.normal).x, 0.0);
+            occluded += weight * max(height - clearance(hit.position + height * hit.normal), 0.0);
         }
     }
     return clamp(1.0 - occluded, 0.0, 1.0);

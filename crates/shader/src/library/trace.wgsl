@@ -79,6 +79,29 @@ fn facing(normal: vec3<f32>, viewer: vec3<f32>, part: i32) -> vec3<f32> {
     return select(normal, -normal, is_sheet(part) && dot(normal, viewer) < 0.0);
 }
 
+// How far a ray may go where a formula has a value (w) and a gradient (xyz): as far as the parabola stays positive that lies below
+// the field, since its slope falls by no more than `fall` on a unit of length; at least as far as its steepest slope allows.
+fn ahead(value: vec4<f32>, direction: vec3<f32>, fall: f32, safe: f32) -> f32 {
+    let slow: f32 = value.w * safe;
+    if (fall < 0.0 || value.w <= 0.0) {
+        return slow;
+    }
+    let slope: f32 = dot(value.xyz, direction);
+    let root: f32 = sqrt(slope * slope + 2.0 * fall * value.w);
+    if (slope < 0.0) {
+        return max(slow, 2.0 * value.w / (root - slope));
+    }
+    return max(slow, min((root + slope) / max(fall, 1e-20), FAR));
+}
+
+// Whether what is nearest to a point is a formula.
+fn is_formula(part: f32) -> bool {
+    if (FORMULA_COUNT == 0 || part < 0.0) {
+        return false;
+    }
+    return parameters[PARTS + PART_SIZE * i32(part) + 10] > 0.0;
+}
+
 // The first surface on a ray.
 fn trace(ray: Ray) -> Hit {
     var plane_at: f32 = FAR;
@@ -106,7 +129,8 @@ fn trace(ray: Ray) -> Hit {
         }
         var reach: f32 = 0.0;
         var near: vec2<f32> = vec2<f32>(FAR, -1.0);
-        // The free distance at the point before, and how far the step from there went.
+        // How far the ray was free ahead of the point before, and how far the step from there went. Back from a point, only the ball
+        // around it is free.
         var before: f32 = 0.0;
         var stride: f32 = 0.0;
         var is_near: bool = false;
@@ -114,8 +138,8 @@ fn trace(ray: Ray) -> Hit {
             let p: vec3<f32> = ray.origin + t * ray.direction;
             near = nearest(p);
             reach = tolerance_at(t, length(p)) * share_at(near.y);
-            let free: f32 = near.x * scale * parameters[STEP_FACTOR];
-            if (stride > before + max(free, 0.0) && stride > 0.0) {
+            let ball: f32 = near.x * scale * parameters[STEP_FACTOR];
+            if (stride > before + max(ball, 0.0) && stride > 0.0) {
                 t = t - stride + before;
                 stride = before;
                 steps += 1;
@@ -125,8 +149,11 @@ fn trace(ray: Ray) -> Hit {
             if (is_near || steps >= i32(parameters[MAX_STEPS])) {
                 break;
             }
-            before = free;
-            stride = select(free, free * RELAXATION, t + free * RELAXATION < end);
+            before = ball;
+            if (is_formula(near.y)) {
+                before = max(ball, free_ahead(p, ray.direction) * parameters[STEP_FACTOR]);
+            }
+            stride = select(before, max(before, ball * RELAXATION), t + ball * RELAXATION < end);
             t += stride;
             steps += 1;
             if (t >= end) {
