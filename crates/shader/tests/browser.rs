@@ -28,7 +28,7 @@ const MEAN: f64 = 0.5;
 const FAR: u8 = 8;
 
 /// The part of the pixels that may be outliers. With one ray a pixel, each ray that grazes an edge is a whole one.
-const OUTLIERS: f64 = 2e-3;
+const OUTLIERS: f64 = 1e-3;
 
 /// What is as fine as a pixel everywhere, such as a fractal, looks different as soon as rays stop elsewhere within their
 /// tolerance. There the processor is compared with itself, going steps of this length, and the browser may differ this many
