@@ -29,10 +29,10 @@ const RESTLESS: f64 = 2.0;
 /// Scenes whose pictures differ by more than they should, with the mean difference and the part of outliers that is known;
 /// each is to become stricter, and to go.
 const KNOWN: [(&str, f64, f64); 2] = [
-    // The shader marches by a bound of the slope, which is steep in the corners of the box: 1016 of 57600 rays run out of steps
-    // where the CPU finds the first zero by Taylor models.
-    ("bench/s2-quartic", 0.66, 0.033),
-    // 53 of 14400 pixels; the cause is not known.
+    // The soft shadows of warped shapes: the CPU takes clearances from the slope bound of a cell, the shader from the slope at the
+    // point. 15 and 49 of 14400 pixels; for the second one that is a part of it (7 of 12 remain with hard shadows in a smaller
+    // picture).
+    ("shapes/twist", MEAN, 0.0015),
     ("shapes/displace", MEAN, 0.005),
 ];
 
