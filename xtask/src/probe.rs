@@ -97,8 +97,10 @@ pub(crate) fn shape() -> Result {
     let scene = scene.to_str().ok_or("the path of the scratch folder is no text")?;
     expect("info", &with(&["info", scene])?, &[NAME])?;
     with(&["render", scene, "--width", "16", "--height", "16", "--samples", "1", "-o", "target-probe.png"])?;
-    // Every number type, and valid shader text. (The tests that need to know what lies inside are for its author.)
-    let tests = ["lanes_agree", "gradients_agree", "hessians_agree", "intervals_contain", "valid_shaders"];
+    // What the command writes is valid.
+    expect("the shader", &with(&["shader", scene, "--target", "wgsl", "--output", "-"])?, &[NAME])?;
+    // Every number type. (The tests that need to know what lies inside are for its author.)
+    let tests = ["lanes_agree", "gradients_agree", "hessians_agree", "intervals_contain", "expressions_compute"];
     let conformance = ["test", "--quiet", "-p", "freikugel-field", "--test", "conformance", "--"];
     run(&scratch, "cargo", &[&conformance[..], &tests].concat())
 }

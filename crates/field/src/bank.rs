@@ -91,6 +91,7 @@ impl<N: Number> Bank<N> {
     }
 
     /// Runs one operation over the first `count` points.
+    #[inline(always)]
     pub(crate) fn step(&mut self, program: &Program, op: &Op, level: Level, count: usize) {
         let constants = &program.single[..];
         match *op {

@@ -1,7 +1,7 @@
 //! Expressions: the number type that records a formula instead of computing it.
 //!
 //! Running a formula over [`Expr`] leaves its operations in a [`Graph`], in the order of evaluation, equal ones only
-//! once. The graph is printed as shader text ([`wgsl`]) or evaluated ([`Graph::evaluate`]), which the tests compare with
+//! once. The graph is turned into shader text (by the crate of shaders) or evaluated ([`Graph::evaluate`]), which the tests compare with
 //! the direct computation. A loop ([`Scalar::iterate`]) becomes one [`Loop`] whose body are the terms that depend on
 //! its state.
 
@@ -11,7 +11,6 @@ use std::collections::HashMap;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 mod gradient;
-pub mod wgsl;
 
 /// An operation with one operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

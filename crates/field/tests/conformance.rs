@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Random, every_shape, tree};
-use freikugel_field::expr::{Graph, wgsl};
+use freikugel_field::expr::Graph;
 use freikugel_field::{Evaluator, Field, Interval, Points, Program, Shares, Structure, simd};
 use glam::DVec3;
 
@@ -215,7 +215,7 @@ fn intervals_contain_and_are_narrow() {
 }
 
 #[test]
-fn expressions_compute_the_same_and_are_valid_shaders() {
+fn expressions_compute_the_same() {
     for (name, seed, field) in every_shape(2) {
         let program = program(&field);
         let graph = Graph::new();
@@ -225,11 +225,6 @@ fn expressions_compute_the_same_and_are_valid_shaders() {
             let exact = program.value(p);
             assert!((value - exact).abs() < 1e-12 * (1.0 + exact.abs()), "{name} {seed} at {p}: {value}, not {exact}");
         }
-        let text = wgsl::PARAMETERS.to_owned() + &wgsl::function("field", &graph, result);
-        let module = naga::front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{name}: {e}\n{text}"));
-        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty())
-            .validate(&module)
-            .unwrap_or_else(|e| panic!("{name}: {e:?}\n{text}"));
     }
 }
 

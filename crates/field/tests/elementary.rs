@@ -6,7 +6,7 @@ mod common;
 use common::Random;
 use fearless_simd::Simd;
 use freikugel_field::elementary::{FUNCTIONS, Function, Reference, ulps};
-use freikugel_field::expr::{Expr, Graph, wgsl};
+use freikugel_field::expr::{Expr, Graph};
 use freikugel_field::scalar::Lanes;
 use freikugel_field::simd::{self, Level};
 use freikugel_field::{Dual, Interval, Scalar};
@@ -672,9 +672,9 @@ fn duals_of_lanes_follow_those_of_doubles() {
 }
 
 #[test]
-fn expressions_compute_the_same_and_are_valid_shaders() {
+fn expressions_compute_the_same() {
     let graph = Graph::new();
-    let [x, y, z] = graph.point();
+    let [x, y, _] = graph.point();
     let constant = x.constants(&freikugel_field::expr::Slots(0), 1).at(0);
     type Direct = Box<dyn Fn(f64, f64) -> f64>;
     let mut cases: Vec<(String, Expr<'_>, Direct)> = UNARY
@@ -700,28 +700,5 @@ fn expressions_compute_the_same_and_are_valid_shaders() {
             let (value, exact) = (graph.evaluate(*expr, [a, b, 0.0], &[1.75]), real(a, b));
             assert!(value == exact || value.is_nan() && exact.is_nan(), "{name} of {a}, {b}: {value}, not {exact}");
         }
-    }
-    let everything = cases.iter().fold(z, |sum, (_, expr, _)| sum + *expr);
-    let text = wgsl::PARAMETERS.to_owned() + &wgsl::function("everything", &graph, everything);
-    let module = naga::front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{e}\n{text}"));
-    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty())
-        .validate(&module)
-        .unwrap_or_else(|e| panic!("{e:?}\n{text}"));
-    for expected in [
-        "sin(p.x)",
-        "cos(p.x)",
-        "tan(p.x)",
-        "asin(p.x)",
-        "acos(p.x)",
-        "atan(p.x)",
-        "exp(p.x)",
-        "log(p.x)",
-        "floor(p.x)",
-        "atan2(p.x, p.y)",
-        "pow(abs(p.x), 2.0f)",
-        "sign(p.x) * pow(abs(p.x), 5.0f)",
-        "pow(p.x, 0.5f)",
-    ] {
-        assert!(text.contains(expected), "{expected} in\n{text}");
     }
 }

@@ -1,30 +1,17 @@
 //! The pictures of all scenes, on the graphics processor and on the CPU: they have to be the same to the eye.
 
 mod common;
+#[path = "../../shader/tests/common/judge.rs"]
+mod judge;
 
 use freikugel_gpu::GpuRenderer;
 use freikugel_render::{Image, Options, Renderer, Tone, render};
 use freikugel_scene::Scene;
+use judge::{Difference, MEAN};
 
 /// The size of the pictures, and the rays a pixel: small, since software draws a million rays in some seconds.
 const SIZE: [u32; 2] = [160, 90];
 const SAMPLES: u32 = 4;
-
-/// How much the pictures may differ on the mean over all channels, of 255.
-const MEAN: f64 = 0.5;
-
-/// How far a channel of a pixel may be off, of 255, unless its pixel counts as an outlier.
-const FAR: u8 = 8;
-
-/// The part of the pixels that may be outliers. Rays that graze an edge, or the border of a shadow, meet it on one side and
-/// miss it on the other, since they are rounded differently.
-const OUTLIERS: f64 = 1e-3;
-
-/// What is as fine as a pixel everywhere, such as a fractal, looks different as soon as rays stop elsewhere within their
-/// tolerance. There the CPU is compared with itself, going steps of this length, and the difference between the processors may
-/// be this many times as large.
-const OTHER_STEPS: f64 = 0.95;
-const RESTLESS: f64 = 2.0;
 
 /// Scenes whose pictures differ by more than they should, with the mean difference and the part of outliers that is known;
 /// each is to become stricter, and to go.
@@ -36,30 +23,8 @@ const KNOWN: [(&str, f64, f64); 2] = [
     ("shapes/displace", MEAN, 0.005),
 ];
 
-struct Difference {
-    mean: f64,
-    outliers: usize,
-    pixels: usize,
-}
-
 fn difference(a: &Image, b: &Image, tone: &Tone) -> Difference {
-    let (a, b) = (a.to_srgb8(tone), b.to_srgb8(tone));
-    assert_eq!(a.len(), b.len());
-    let off: Vec<u8> = a.iter().zip(&b).map(|(a, b)| a.abs_diff(*b)).collect();
-    let outliers = off.chunks_exact(3).filter(|pixel| pixel.iter().any(|&channel| channel > FAR)).count();
-    Difference {
-        mean: off.iter().map(|&channel| f64::from(channel)).sum::<f64>() / off.len() as f64,
-        outliers,
-        pixels: off.len() / 3,
-    }
-}
-
-/// How much the CPU's picture changes if its rays take other steps.
-fn own_difference(scene: &Scene, picture: &Image) -> Difference {
-    let mut scene = scene.clone();
-    scene.tracer.step_factor *= OTHER_STEPS;
-    let other = render(&scene, &options(&scene), &()).expect("a picture");
-    difference(picture, &other.image, &Tone::of(&scene.picture))
+    Difference::of(&a.to_srgb8(tone), &b.to_srgb8(tone))
 }
 
 fn options(scene: &Scene) -> Options {
@@ -82,25 +47,18 @@ fn all_scenes_look_the_same_on_both_processors() {
                 continue;
             }
         };
-        let Difference { mean, outliers, pixels } = difference(&on_cpu.image, &on_gpu.image, &Tone::of(&scene.picture));
-        let summary = format!(
-            "{name}: mean {mean:.4} of 255, {outliers} of {pixels} pixels off by more than {FAR}; unresolved {} and {}",
-            on_cpu.stats.unresolved.camera, on_gpu.stats.unresolved.camera
-        );
+        let tone = Tone::of(&scene.picture);
+        let difference = difference(&on_cpu.image, &on_gpu.image, &tone);
+        let [unresolved, on_gpu] = [&on_cpu.stats, &on_gpu.stats].map(|stats| stats.unresolved.camera);
+        let summary = format!("{name}: {difference}; unresolved {unresolved} and {on_gpu}");
         println!("{summary}");
-        let exceeds = |most_mean: f64, most_outliers: f64| mean > most_mean || outliers as f64 > most_outliers;
-        if !exceeds(MEAN, OUTLIERS * pixels as f64) {
-            continue;
-        }
-        if let Some((_, known_mean, known_part)) = KNOWN.iter().find(|(known, ..)| *known == name) {
-            if exceeds(*known_mean, known_part * pixels as f64) {
-                faults.push(summary);
-            }
-            continue;
-        }
-        let own = own_difference(&scene, &on_cpu.image);
-        println!("    the CPU differs from itself by {:.4} in {} pixels", own.mean, own.outliers);
-        if exceeds(MEAN.max(RESTLESS * own.mean), RESTLESS * own.outliers as f64) {
+        let is_too_large = match KNOWN.iter().find(|(known, ..)| *known == name) {
+            Some(&(_, mean, outliers)) => difference.exceeds(mean, outliers),
+            None => difference.is_too_large(&scene, &on_cpu.image.to_srgb8(&tone), |scene| {
+                render(scene, &options, &()).expect("a picture").image.to_srgb8(&tone)
+            }),
+        };
+        if is_too_large {
             faults.push(summary);
         }
     }

@@ -262,16 +262,10 @@ impl Bundle {
                 for (start, some) in rows.starts().zip(&mut some) {
                     let (mut first, mut last) = (*row(near, start), *row(far, start));
                     for axis in 0..3 {
-                        let (origin, inverse) = (row(&origin[axis], start), row(&inverse[axis], start));
                         let size = middle[axis].abs() + half[axis];
-                        for lane in 0..LANES {
-                            let half = half[axis] + SHAFT_ROUNDING * (size + origin[lane].abs());
-                            let towards = (middle[axis] - origin[lane]) * inverse[lane];
-                            let reach = half * inverse[lane].abs();
-                            let (begin, end) = (towards - reach, towards + reach);
-                            first[lane] = if begin > first[lane] { begin } else { first[lane] };
-                            last[lane] = if end < last[lane] { end } else { last[lane] };
-                        }
+                        let half = |origin: f32| half[axis] + SHAFT_ROUNDING * (size + origin.abs());
+                        let (origin, inverse) = (row(&origin[axis], start), row(&inverse[axis], start));
+                        narrow(&mut first, &mut last, origin, inverse, middle[axis], half);
                     }
                     let mut met = 0;
                     for lane in 0..LANES {
@@ -300,13 +294,7 @@ impl Bundle {
                     let (mut first, mut last) = (*near, *far);
                     for axis in 0..3 {
                         let (origin, inverse) = (row(&origin[axis], start), row(&inverse[axis], start));
-                        for lane in 0..LANES {
-                            let towards = (middle[axis] - origin[lane]) * inverse[lane];
-                            let reach = half[axis] * inverse[lane].abs();
-                            let (begin, end) = (towards - reach, towards + reach);
-                            first[lane] = if begin > first[lane] { begin } else { first[lane] };
-                            last[lane] = if end < last[lane] { end } else { last[lane] };
-                        }
+                        narrow(&mut first, &mut last, origin, inverse, middle[axis], |_| half[axis]);
                     }
                     let (enter, leave) = (row_mut(enter, start), row_mut(leave, start));
                     let mut met = 0;
@@ -422,6 +410,19 @@ impl Bundle {
         let goes_on = |&ray: &usize| self.far.0[ray] > f32::NEG_INFINITY;
         ends.extend((0..self.count).filter(goes_on).map(|ray| end(ray, End::NOWHERE)));
         self.count = 0;
+    }
+}
+
+/// Narrows the stretches of a row of rays to a slab between two planes across an axis, half of whose width may depend on the
+/// origin of a ray.
+#[inline(always)]
+fn narrow(first: &mut Row, last: &mut Row, origin: &Row, inverse: &Row, middle: f32, half: impl Fn(f32) -> f32) {
+    for lane in 0..LANES {
+        let towards = (middle - origin[lane]) * inverse[lane];
+        let reach = half(origin[lane]) * inverse[lane].abs();
+        let (begin, end) = (towards - reach, towards + reach);
+        first[lane] = if begin > first[lane] { begin } else { first[lane] };
+        last[lane] = if end < last[lane] { end } else { last[lane] };
     }
 }
 

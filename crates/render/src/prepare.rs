@@ -329,6 +329,8 @@ pub(crate) struct Frame<'r> {
     pub(crate) occlusion: Option<OcclusionSamples>,
     /// The width of the cone that a ray stands for: at the camera, and what it gains per unit of distance.
     pub(crate) footprint: [f32; 2],
+    /// Whether hits tell objects apart that look alike.
+    pub(crate) tells_objects: bool,
 }
 
 /// How far from a surface a ray may stop, in world units.
@@ -424,6 +426,7 @@ impl<'r> Frame<'r> {
             eye: (camera.eye - origin).as_vec3().to_array(),
             occlusion: occlusion.map(|(_, samples)| samples),
             footprint: [fixed as f32, growth as f32],
+            tells_objects: false,
             marched,
         })
     }

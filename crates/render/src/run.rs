@@ -138,6 +138,7 @@ impl Renderer<'_> {
         let start = Instant::now();
         let region = options.region()?;
         let frame = Frame::new(self, &Options { samples: 1, ..options.clone() })?;
+        let frame = Frame { tells_objects: true, ..frame };
         let mut pixels = filled(region, Layers::NOTHING)?;
         let mut stats = in_tiles(&frame, options, region, progress, &mut pixels, || {
             let mut order = Order::default();
@@ -149,7 +150,6 @@ impl Renderer<'_> {
                     }
                     let wave = first..(first + WAVE).min(out.len());
                     tracer.clear();
-                    tracer.tells_objects = true;
                     for ray in wave.clone() {
                         tracer.push(order.center(ray));
                     }

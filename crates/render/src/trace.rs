@@ -32,7 +32,7 @@ pub(crate) struct Hit {
     /// The ray's place in its wave.
     pub(crate) ray: u32,
     /// The object's place in the scene; the one with the largest share. One of those that look like it, unless
-    /// [`Tracer::tells_objects`].
+    /// [`Frame::tells_objects`].
     pub(crate) object: u32,
     /// Relative to the frame's origin.
     pub(crate) position: Triple,
@@ -79,8 +79,6 @@ pub(crate) struct Tracer<'f> {
     /// Rays of the last wave that ran out of steps.
     pub(crate) unresolved: Vec<u32>,
     pub(crate) stats: Stats,
-    /// Whether hits tell objects apart that look alike.
-    pub(crate) tells_objects: bool,
 }
 
 /// Points with room for what is computed at them.
@@ -109,7 +107,6 @@ impl<'f> Tracer<'f> {
             hits: Vec::new(),
             unresolved: Vec::new(),
             stats: Stats::default(),
-            tells_objects: false,
         }
     }
 
@@ -213,7 +210,7 @@ impl<'f> Tracer<'f> {
             return;
         }
         let Renderer { is_uniform, is_one_object, .. } = *frame.renderer;
-        let matters = !is_uniform || (self.tells_objects && !is_one_object);
+        let matters = !is_uniform || (frame.tells_objects && !is_one_object);
         for landings in self.landings.chunk_by(|a, b| std::ptr::eq(a.cell, b.cell)) {
             let part = landings[0].cell.part();
             // Most cells hold one region, which has it all.

@@ -278,3 +278,58 @@ fn swizzled(vector: Expr) -> Expr {
     }
     vector
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tree::{Function, Item};
+    use freikugel_field::Scalar;
+    use freikugel_field::expr::Slots;
+
+    #[test]
+    fn all_functions_become_valid_text() {
+        let graph = Graph::new();
+        let [x, y, _] = graph.point();
+        let slot = x.constants(&Slots(0), 1).at(0);
+        let cases = [
+            (x.sin(), "sin(p.x)"),
+            (x.cos(), "cos(p.x)"),
+            (x.tan(), "tan(p.x)"),
+            (x.asin(), "asin(p.x)"),
+            (x.acos(), "acos(p.x)"),
+            (x.atan(), "atan(p.x)"),
+            (x.exp(), "exp(p.x)"),
+            (x.ln(), "log(p.x)"),
+            (x.sqrt(), "sqrt(p.x)"),
+            (x.abs(), "abs(p.x)"),
+            (x.floor(), "floor(p.x)"),
+            (x.atan2(y), "atan2(p.x, p.y)"),
+            (x.pow(y), "power(p.x, p.y)"),
+            (x.pow(slot), "power(p.x, parameters[7])"),
+            (x.pow(x.lift(-2.0)), "pow(abs(p.x), -2.0)"),
+            (x.pow(x.lift(0.0)), "1.0"),
+            (x.pow(x.lift(2.0)), "pow(abs(p.x), 2.0)"),
+            (x.pow(x.lift(5.0)), "sign(p.x) * pow(abs(p.x), 5.0)"),
+            (x.pow(x.lift(0.5)), "pow(p.x, 0.5)"),
+        ];
+        let inputs = ["x", "y", "z"].map(|axis| Expr::name("p").member(axis));
+        let parameter = |slot: usize| Expr::Parameter(Box::new(Expr::Int(7 + slot as i64)));
+        for (case, expected) in cases {
+            let (mut body, mut results) = statements(&graph, &[case], &inputs, &parameter);
+            body.push(Statement::Return(results.remove(0)));
+            let function = Function {
+                name: "example".into(),
+                comment: Vec::new(),
+                arguments: vec![("p".into(), Type::Vector(3))],
+                result: Type::Float,
+                body,
+            };
+            let mut items = crate::parse::parse(include_str!("library/basics.wgsl")).expect("the library is sound");
+            items.push(Item::Function(function));
+            let text = crate::wgsl::items(&crate::module::needed(&items, &["example"]));
+            assert!(text.contains(&format!("return {expected};")), "{expected} in\n{text}");
+            let table = "@group(0) @binding(0) var<storage, read> parameters: array<f32>;\n";
+            crate::target::validated(&(table.to_owned() + &text)).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        }
+    }
+}

@@ -168,7 +168,7 @@ fn webgl_table(table: Table, count: usize) -> String {
 }
 
 /// A module that an independent judge accepts.
-fn validated(text: &str) -> Result<(naga::Module, naga::valid::ModuleInfo), ShaderError> {
+pub(crate) fn validated(text: &str) -> Result<(naga::Module, naga::valid::ModuleInfo), ShaderError> {
     let module =
         naga::front::wgsl::parse_str(text).map_err(|error| ShaderError::Invalid(error.emit_to_string(text)))?;
     let flags = naga::valid::ValidationFlags::all();

@@ -2,8 +2,11 @@
 //! that all text comes from.
 
 mod common;
+#[path = "../../field/tests/common/mod.rs"]
+mod fields;
 
 use common::{Machine, Value, read, scene_of};
+use fields::Random;
 use freikugel_field::{Structure, shapes};
 use freikugel_render::{Options, Renderer};
 use freikugel_scene::Scene;
@@ -21,17 +24,6 @@ const ROUNDING: f64 = 2e-4;
 /// A share of the points may lie at an edge, where another side is taken for the derivative.
 const AT_EDGES: f64 = 0.03;
 
-fn random_points(count: usize) -> impl Iterator<Item = DVec3> {
-    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
-    let mut unit = move || {
-        state ^= state >> 12;
-        state ^= state << 25;
-        state ^= state >> 27;
-        (state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    (0..count).map(move |_| DVec3::new(unit(), unit(), unit()) * 3.0 - 1.5)
-}
-
 #[test]
 fn fields_and_gradients_agree_for_every_shape() {
     for shape in shapes::ALL {
@@ -42,7 +34,8 @@ fn fields_and_gradients_agree_for_every_shape() {
         let machine = Machine::new(&shader, &parameters, &View::of(1, 1));
         let field = Structure::compile(&[scene.objects[0].shape.clone()]).expect("a field").program(DVec3::ZERO);
         let mut at_edges = 0;
-        for p in random_points(POINTS) {
+        let mut random = Random::new(1);
+        for p in (0..POINTS).map(|_| random.point(1.5)) {
             let relative = Value::Vector((p - parameters.origin()).to_array().to_vec());
             let out = machine.call("field_gradient", vec![relative]);
             let [x, y, z, value] = *out.vector() else { panic!("four numbers") };

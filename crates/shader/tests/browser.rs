@@ -5,6 +5,8 @@
 //! `target/tmp/browser`.
 
 mod common;
+#[path = "common/judge.rs"]
+mod judge;
 
 use common::{read, scene, scene_of};
 use freikugel_render::{Options, Tone, render};
@@ -12,29 +14,16 @@ use freikugel_scene::{Light, Scene, Sun};
 use freikugel_shader::glsl::BLOCK_VECTORS;
 use freikugel_shader::{Parameters, Shader, TEXTURE_WIDTH, Target};
 use glam::{DMat3, DVec3};
+use judge::Difference;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The size of all pictures. There is one ray a pixel: the browser gives bytes, which can't be averaged.
+/// The size of all pictures. There is one ray a pixel: the browser gives bytes, which can't be averaged. So each ray that
+/// grazes an edge is a whole outlier.
 const SIZE: [u32; 2] = [160, 90];
-
-/// How much a picture may differ on the mean over all channels, of 255.
-const MEAN: f64 = 0.5;
-
-/// How far a channel of a pixel may be off, of 255, unless its pixel counts as an outlier.
-const FAR: u8 = 8;
-
-/// The part of the pixels that may be outliers. With one ray a pixel, each ray that grazes an edge is a whole one.
-const OUTLIERS: f64 = 1e-3;
-
-/// What is as fine as a pixel everywhere, such as a fractal, looks different as soon as rays stop elsewhere within their
-/// tolerance. There the processor is compared with itself, going steps of this length, and the browser may differ this many
-/// times as much.
-const OTHER_STEPS: f64 = 0.95;
-const RESTLESS: f64 = 2.0;
 
 /// Scenes of the repository that are drawn.
 const SCENES: [&str; 10] = [
@@ -67,36 +56,6 @@ struct Job {
     /// The scene as the browser should show it, and the processor's picture of it.
     scene: Scene,
     expected: Vec<u8>,
-}
-
-/// How much two pictures differ.
-struct Difference {
-    mean: f64,
-    outliers: usize,
-}
-
-impl Difference {
-    fn of(a: &[u8], b: &[u8]) -> Self {
-        assert_eq!(a.len(), b.len());
-        let off: Vec<u8> = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).collect();
-        Self {
-            mean: off.iter().map(|&channel| f64::from(channel)).sum::<f64>() / off.len() as f64,
-            outliers: off.chunks_exact(3).filter(|pixel| pixel.iter().any(|&channel| channel > FAR)).count(),
-        }
-    }
-
-    /// Whether it is more than pictures of this scene may differ.
-    fn is_too_large(&self, scene: &Scene, expected: &[u8]) -> bool {
-        let few = OUTLIERS * f64::from(SIZE[0] * SIZE[1]);
-        if self.mean <= MEAN && self.outliers as f64 <= few {
-            return false;
-        }
-        let mut other = scene.clone();
-        other.tracer.step_factor *= OTHER_STEPS;
-        let own = Self::of(&on_cpu(&other), expected);
-        println!("    the processor differs from itself by {:.4} in {} pixels", own.mean, own.outliers);
-        self.mean > MEAN.max(RESTLESS * own.mean) || self.outliers as f64 > few.max(RESTLESS * own.outliers as f64)
-    }
 }
 
 fn sized(mut scene: Scene) -> Scene {
@@ -238,10 +197,9 @@ fn browsers_draw_what_the_processor_draws() {
     for Job { name, scene, expected, .. } in &all {
         let found = std::fs::read(folder.join(format!("{name}.rgb"))).unwrap_or_else(|error| panic!("{name}: {error}"));
         let difference = Difference::of(&found, expected);
-        let Difference { mean, outliers } = difference;
-        let summary = format!("{name}: mean {mean:.4} of 255, {outliers} pixels off by more than {FAR}");
+        let summary = format!("{name}: {difference}");
         println!("{summary}; {}", said[name].replace('\t', ", "));
-        if difference.is_too_large(scene, expected) {
+        if difference.is_too_large(scene, expected, on_cpu) {
             faults.push(summary);
         }
     }

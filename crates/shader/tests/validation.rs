@@ -1,6 +1,8 @@
 //! Every text passes independent judges: for the example of each shape, and for all scenes of the repository.
 
 mod common;
+#[path = "../../field/tests/common/mod.rs"]
+mod fields;
 
 use common::{read, scene_files, scene_of};
 use freikugel_field::shapes;
@@ -20,6 +22,15 @@ fn check(scene: &Scene, name: &str) {
 fn all_shapes_become_valid_shaders() {
     for shape in shapes::ALL {
         check(&scene_of(shape.about.example), shape.about.name);
+    }
+}
+
+#[test]
+fn shapes_with_any_arguments_become_valid_shaders() {
+    for (name, seed, field) in fields::every_shape(2) {
+        let mut scene = scene_of(r#"{ "sphere": { "radius": 1 } }"#);
+        scene.objects[0].shape = field;
+        check(&scene, &format!("{name} {seed}"));
     }
 }
 

@@ -2,9 +2,14 @@
 
 #![allow(dead_code, reason = "not every test uses everything")]
 
+#[path = "../../../shader/tests/common/scenes.rs"]
+mod scenes;
+
+pub(crate) use scenes::scene;
+
 use freikugel_gpu::{Choice, Gpu};
 use freikugel_scene::Scene;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 /// The graphics processor that tests run on; software is as good as any.
@@ -13,33 +18,9 @@ pub(crate) fn gpu() -> Arc<Gpu> {
     Arc::new(gpu)
 }
 
-/// A scene from its text.
-pub(crate) fn scene(text: &str, name: &str) -> Scene {
-    let reading = freikugel_scene::read(text);
-    reading.scene.unwrap_or_else(|| panic!("{name}: {:?}", reading.diagnostics))
-}
-
 /// All scenes of the repository, by their paths below its folder of scenes, in order.
 pub(crate) fn scenes() -> Vec<(String, Scene)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    let mut files = Vec::new();
-    collect(&folder, &mut files);
-    files.sort();
-    let read = |file: &PathBuf| {
-        let name = file.strip_prefix(&folder).expect("below it").with_extension("").display().to_string();
-        let text = std::fs::read_to_string(file).unwrap_or_else(|error| panic!("{name}: {error}"));
-        (name.clone(), scene(&text, &name))
-    };
-    files.iter().map(read).collect()
-}
-
-fn collect(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in std::fs::read_dir(folder).expect("a folder") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            collect(&path, found);
-        } else if path.extension().is_some_and(|suffix| suffix == "json") {
-            found.push(path);
-        }
-    }
+    let name = |file: &Path| file.strip_prefix(&folder).expect("below it").with_extension("").display().to_string();
+    scenes::scene_files().iter().map(|file| (name(file), scenes::read(file))).collect()
 }

@@ -1,47 +1,14 @@
 //! An interpreter for the form that all shader text comes from, in double precision: what a graphics processor would compute,
 //! without one.
-#![allow(dead_code, reason = "each test file uses a part")]
+#![allow(dead_code, unused_imports, reason = "each test file uses a part")]
 
-use freikugel_scene::Scene;
+mod scenes;
+
+pub(crate) use scenes::{read, scene, scene_files, scene_of};
+
 use freikugel_shader::tree::{Expr, Function, Item, Operator, Statement, Type};
 use freikugel_shader::{Parameters, Shader, View};
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
-
-/// A scene from its text.
-pub(crate) fn scene(text: &str, name: &str) -> Scene {
-    let reading = freikugel_scene::read(text);
-    reading.scene.unwrap_or_else(|| panic!("{name}: {:?}", reading.diagnostics))
-}
-
-/// A scene of one object, in scene notation.
-pub(crate) fn scene_of(shape: &str) -> Scene {
-    let materials = r##"{ "clay": { "color": "#c8825a" }, "glaze": { "color": "#5a82c8" } }"##;
-    scene(&format!(r#"{{ "version": 1, "materials": {materials}, "objects": [{{ "shape": {shape} }}] }}"#), shape)
-}
-
-/// All scene files of the repository.
-pub(crate) fn scene_files() -> Vec<PathBuf> {
-    fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
-        for entry in std::fs::read_dir(folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                walk(&path, found);
-            } else if path.extension().is_some_and(|suffix| suffix == "json") {
-                found.push(path);
-            }
-        }
-    }
-    let mut found = Vec::new();
-    walk(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes"), &mut found);
-    found.sort();
-    found
-}
-
-/// The scene of a file.
-pub(crate) fn read(path: &Path) -> Scene {
-    scene(&std::fs::read_to_string(path).expect("a scene file"), &path.display().to_string())
-}
 
 /// A value of the form.
 #[derive(Clone, Debug)]
