@@ -3,7 +3,7 @@
 //! Each count is measured in a process of its own, so that its peak memory can be told.
 
 use crate::measure::{Clock, median, peak_memory};
-use crate::scattered::{self, Kind};
+use crate::scattered::{self, Kind, Light};
 use crate::table::short;
 use freikugel::render::{Options, Renderer};
 use serde_json::{Value as Json, json};
@@ -30,7 +30,7 @@ pub fn name(count: usize) -> String {
 /// # Errors
 /// If the scene that was made can't be read.
 pub fn measure(count: usize, threads: usize, runs: usize) -> Result<Json, String> {
-    let text = scattered::scene(count, Kind::Boxes, None);
+    let text = scattered::scene(count, Kind::Boxes, None, Light::Ambient);
     let start = Clock::Thread.now();
     let scene = freikugel::scene::read(&text).into_result().map_err(|faults| faults[0].message.clone())?;
     let read = Clock::Thread.now() - start;

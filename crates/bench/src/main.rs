@@ -3,7 +3,7 @@
 #![forbid(unsafe_code)]
 
 use clap::{Parser, Subcommand};
-use freikugel_bench::scattered::{self, Kind};
+use freikugel_bench::scattered::{self, Kind, Light};
 use freikugel_bench::{evaluation, growth, measure::Row, picture, table, whole};
 use serde_json::{Value as Json, json};
 use std::io::Write;
@@ -52,6 +52,9 @@ enum Job {
         /// Blend them all within this distance.
         #[arg(long, value_name = "DISTANCE", value_parser = parse_blend)]
         blend: Option<f64>,
+        /// Add a floor and a sun with shadows, and ambient occlusion.
+        #[arg(long = "lit")]
+        is_lit: bool,
         /// The scene file; by default it goes to standard output.
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
@@ -78,8 +81,8 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let done = match arguments.command {
         None => run(&arguments),
-        Some(Job::Scene { count, kind, blend, ref output }) => {
-            let text = scattered::scene(count as usize, kind, blend);
+        Some(Job::Scene { count, kind, blend, is_lit, ref output }) => {
+            let text = scattered::scene(count as usize, kind, blend, if is_lit { Light::Sun } else { Light::Ambient });
             match output {
                 Some(path) => std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display())),
                 None => std::io::stdout().write_all(text.as_bytes()).map_err(|error| error.to_string()),

@@ -3,6 +3,7 @@
 //! Exit codes: 0 done; 1 the input or the machine won't do; 2 the words of the command line are off; 130 stopped by
 //! Ctrl-C.
 
+mod bench;
 mod check;
 mod compare;
 mod frame;
@@ -28,6 +29,7 @@ Examples:
   freikugel view cup.json
   freikugel sweep cup.json --vary tracer.max_steps=5,10,100 -o steps.png
   freikugel compare cup.json
+  freikugel bench --gpu
   freikugel shader cup.json --target shadertoy -o cup.glsl
   freikugel check cup.json
   freikugel help shapes torus";
@@ -51,6 +53,8 @@ enum Command {
     Sweep(sweep::Arguments),
     /// Compare all tracers on a scene: steps, evaluations, time, wrong pixels.
     Compare(compare::Arguments),
+    /// Measure how many frames a second scenes make, with the CPU and the graphics processor.
+    Bench(bench::Arguments),
     /// Write a scene as a shader: WGSL, GLSL, Shadertoy, HLSL, MSL.
     Shader(shader::Arguments),
     /// Report the mistakes of scenes, and nothing else.
@@ -115,6 +119,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::View(arguments) => view::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments),
         Command::Shader(arguments) => shader::run(&arguments),
         Command::Check(files) => check::run(&files.scenes),
         Command::Info(arguments) => info::run(&arguments),

@@ -54,7 +54,12 @@ fn auto_always_makes_a_picture_and_says_by_what() {
 #[test]
 fn without_the_feature_commands_say_how_to_get_it() {
     let folder = folder();
-    for args in [&["view", "ball.json"][..], &["render", "ball.json", "--backend", "gpu"], &["info", "--gpu"]] {
+    for args in [
+        &["view", "ball.json"][..],
+        &["render", "ball.json", "--backend", "gpu"],
+        &["info", "--gpu"],
+        &["bench", "--gpu", "ball.json"],
+    ] {
         let output = run(folder.path(), args);
         assert_eq!(output.status.code(), Some(1), "{args:?}");
         assert!(
@@ -111,4 +116,59 @@ fn a_window_without_a_screen_is_refused_with_a_way_out() {
     assert_eq!(output.status.code(), Some(1));
     let text = stderr(&output);
     assert!(text.contains("DISPLAY") && text.contains("freikugel render"), "{text}");
+}
+
+/// The rows of figures in a file, each checked for what holds on any machine, however slow or busy.
+fn frame_rates(path: &std::path::Path) -> Vec<serde_json::Value> {
+    let text = std::fs::read_to_string(path).expect("figures");
+    let all: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let rows = all["rows"].as_array().expect("rows").clone();
+    for row in &rows {
+        let number = |group: &str, key: &str| row[group][key].as_f64().unwrap_or(f64::NAN);
+        for group in ["frames_per_second", "milliseconds"] {
+            let [min, mean, max, deviation] = ["min", "mean", "max", "deviation"].map(|key| number(group, key));
+            assert!(0.0 < min && min <= mean && mean <= max && max.is_finite(), "{row}");
+            assert!((0.0..=max - min).contains(&deviation), "{row}");
+        }
+        assert!((number("milliseconds", "min") * number("frames_per_second", "max") - 1e3).abs() < 1e-6, "{row}");
+        assert!((number("milliseconds", "max") * number("frames_per_second", "min") - 1e3).abs() < 1e-6, "{row}");
+        assert!(row["first_frame_ms"].as_f64() > Some(0.0) && row["prepare_ms"].as_f64() > Some(0.0), "{row}");
+    }
+    rows
+}
+
+#[test]
+fn frames_of_the_cpu_are_timed() {
+    let folder = folder();
+    let args = ["bench", "ball.json", "--frames", "5", "--width", "32", "--height", "18", "--json", "rates.json"];
+    let output = run(folder.path(), &args);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let table = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(table.contains("| ball.json | CPU, "), "{table}");
+    let rows = frame_rates(&folder.path().join("rates.json"));
+    assert_eq!(rows.len(), 1);
+    assert_eq!((&rows[0]["frames"], &rows[0]["pipelines_ms"]), (&5.into(), &serde_json::Value::Null));
+    for args in [&["bench", "--filter", "no such"][..], &["bench", "--frames", "0"], &["bench", "--adapter", "x"]] {
+        assert_eq!(run(folder.path(), args).status.code(), Some(2), "{args:?}");
+    }
+}
+
+#[cfg(feature = "gpu")]
+#[test]
+fn frames_of_all_scenes_are_timed_on_both_processors() {
+    let folder = folder();
+    let args = ["bench", "--gpu", "--frames", "2", "--width", "64", "--height", "36", "--json", "rates.json"];
+    let output = run(folder.path(), &args);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let table = String::from_utf8_lossy(&output.stdout).into_owned();
+    let rows = frame_rates(&folder.path().join("rates.json"));
+    let scenes = ["box", "columns", "Mandelbulb", "room", "10 prim", "20 prim", "100 prim", "300 prim"];
+    assert_eq!(rows.len(), 2 * scenes.len(), "{table}");
+    for (name, rows) in scenes.iter().zip(rows.chunks(2)) {
+        for row in rows {
+            assert!(row["scene"].as_str().is_some_and(|scene| scene.starts_with(name)), "{row}");
+        }
+        assert!(rows[0]["pipelines_ms"].as_f64() > Some(0.0) && rows[1]["pipelines_ms"].is_null(), "{rows:?}");
+    }
+    assert_eq!(table.lines().filter(|line| line.starts_with("| ")).count(), 1 + rows.len(), "{table}");
 }

@@ -28,6 +28,7 @@
 
 mod adapter;
 mod device;
+mod frames;
 mod kernel;
 mod picture;
 mod renderer;
@@ -37,6 +38,7 @@ mod window;
 
 pub use adapter::{AdapterError, AdapterSummary, Choice, adapters};
 pub use device::{Gpu, GpuError, OpenError};
+pub use frames::{Creation, Frames};
 pub use freikugel_shader::ShaderError;
 pub use renderer::{DrawError, GpuRenderer};
 pub use tiler::{BUDGET, Tiler};

@@ -4,7 +4,7 @@ mod common;
 #[path = "../../shader/tests/common/judge.rs"]
 mod judge;
 
-use freikugel_gpu::GpuRenderer;
+use freikugel_gpu::{Frames, GpuRenderer};
 use freikugel_render::{Image, Options, Renderer, Tone, render};
 use freikugel_scene::Scene;
 use judge::{Difference, MEAN};
@@ -143,4 +143,24 @@ fn changed_numbers_compile_nothing_and_show() {
     let other = r#"{ "version": 1, "objects": [{ "shape": { "box": { "size": [1, 1, 1] } } }] }"#;
     assert!(renderer.set_scene(&common::scene(other, "other")).expect("another shader"));
     assert!(gpu.pipelines() > before);
+}
+
+#[test]
+fn frames_are_the_pictures_of_their_cameras() {
+    let gpu = common::gpu();
+    let (_, mut scene) = common::scenes().into_iter().find(|(name, _)| name == "gpu/room").expect("there");
+    let options = Options { samples: 1, ..options(&scene) };
+    let mut frames = Frames::new(&gpu, &scene, &options).expect("a shader");
+    let before = gpu.pipelines();
+    let mut camera = scene.camera.clone().expect("it has one");
+    for draws_at_once in [false, true, true] {
+        camera.eye.x += 0.1;
+        let time = if draws_at_once { frames.draw(&camera) } else { frames.practise(&camera) };
+        assert!(time.expect("a frame").as_nanos() > 0);
+    }
+    assert_eq!(gpu.pipelines(), before, "a frame made a pipeline");
+    scene.camera = Some(camera);
+    let expected = render(&scene, &options, &()).expect("a picture").image;
+    let Difference { mean, .. } = difference(&expected, &frames.read().expect("pixels"), &Tone::of(&scene.picture));
+    assert!(mean < MEAN, "{mean}");
 }

@@ -21,16 +21,52 @@ pub(super) enum Backend {
 pub(super) type Made = (Rendered, Option<String>);
 
 #[cfg(feature = "gpu")]
-pub(super) use with::{choice, list, render, render_if_able};
+pub(super) use with::{Processor, choice, list, render, render_if_able};
 
 #[cfg(not(feature = "gpu"))]
-pub(super) use without::{list, missing, render, render_if_able};
+pub(super) use without::{Processor, list, missing, render, render_if_able};
 
 #[cfg(feature = "gpu")]
 mod with {
+    use super::super::bench::{Length, Row, measured, swinging};
     use super::{Failure, Made, Options, Scene, Watch};
-    use freikugel::gpu::{AdapterError, Choice, DrawError, Gpu, GpuRenderer, adapters};
+    use freikugel::gpu::{AdapterError, Choice, DrawError, Frames, Gpu, GpuRenderer, adapters};
+    use freikugel::render::Renderer;
     use std::sync::Arc;
+
+    /// A graphics processor whose frames are timed.
+    pub(in super::super) struct Processor {
+        gpu: Arc<Gpu>,
+    }
+
+    impl Processor {
+        /// Makes the one with a name ready, or the best one.
+        pub(in super::super) fn open(adapter: Option<&str>) -> Result<Self, Failure> {
+            let gpu = Gpu::open(&choice(adapter)).map_err(|error| Failure::Input(error.to_string()))?;
+            Ok(Self { gpu: Arc::new(gpu) })
+        }
+
+        /// Times frames of a scene.
+        pub(in super::super) fn measure(
+            &self,
+            name: &str,
+            scene: &Scene,
+            options: &Options,
+            length: Length,
+            watch: &Watch,
+        ) -> Result<Row, Failure> {
+            let camera = Renderer::new(scene).map(|renderer| renderer.camera(options.width, options.height));
+            let camera = camera.map_err(|error| Failure::Input(format!("{name}: {error}")))?;
+            let mut frames = Frames::new(&self.gpu, scene, options).map_err(failure)?;
+            let measured = measured(length, watch, |number, is_practice| {
+                let camera = swinging(&camera, number);
+                let time = if is_practice { frames.practise(&camera) } else { frames.draw(&camera) };
+                time.map_err(failure)
+            })?;
+            let creation = frames.creation();
+            Ok(Row::new(name, &self.gpu.summary().name, creation.text, Some(creation.pipelines), measured))
+        }
+    }
 
     /// All graphics processors, the one that is taken first; a line for each.
     pub(in super::super) fn list() -> Result<String, Failure> {
@@ -93,7 +129,28 @@ mod with {
 
 #[cfg(not(feature = "gpu"))]
 mod without {
+    use super::super::bench::{Length, Row};
     use super::{Failure, Made, Options, Scene, Watch};
+
+    /// There is none.
+    pub(in super::super) enum Processor {}
+
+    impl Processor {
+        pub(in super::super) fn open(_: Option<&str>) -> Result<Self, Failure> {
+            Err(missing("bench --gpu"))
+        }
+
+        pub(in super::super) fn measure(
+            &self,
+            _: &str,
+            _: &Scene,
+            _: &Options,
+            _: Length,
+            _: &Watch,
+        ) -> Result<Row, Failure> {
+            match *self {}
+        }
+    }
 
     /// What is said where something needs graphics processors.
     pub(in super::super) fn missing(what: &str) -> Failure {
