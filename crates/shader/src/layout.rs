@@ -1,8 +1,9 @@
 //! Where the numbers of a scene are in the table of parameters.
 //!
-//! First come numbers that every scene has, at places that are the same for all; then the boxes of parts and groups, planes,
+//! First come numbers that every scene has, at places that are the same for all; then the boxes of parts, the hierarchy of many, planes,
 //! the materials of regions, and the constants of the parts' functions; last the lights, since their number may change.
 
+use crate::hierarchy::{self, NODE_SIZE};
 use crate::tree::{Expr, Item, Type};
 
 /// What every scene has, with how many numbers.
@@ -36,8 +37,9 @@ const HEADER: &[(&str, usize)] = &[
 /// its box is larger than needed; the number of its form, the place of its constants, whether
 /// its values are distances (0), warped distances (1) or have no scale (2); and how fast its slope can fall along a line, or -1.
 pub(crate) const PART_SIZE: usize = 12;
-/// Numbers of a group of parts: the middle of its box and half its edges.
-pub(crate) const GROUP_SIZE: usize = 6;
+/// Numbers of a part that is one of many: the form of its surface, or -1 if it is of one region, and the place of the second
+/// of its regions.
+pub(crate) const SURFACE_SIZE: usize = 2;
 /// Numbers of a plane: normal, offset, whether it is a sheet, and the slope of its field.
 pub(crate) const PLANE_SIZE: usize = 6;
 /// Numbers of a region: two colours, the size of the pattern (0 for none) and its phase, emitted light, shares of ambient,
@@ -47,10 +49,9 @@ pub(crate) const REGION_SIZE: usize = 21;
 /// its measure.
 pub(crate) const LIGHT_SIZE: usize = 18;
 
-/// How many parts share a box.
-pub(crate) const GROUP: usize = 8;
-/// With fewer parts, groups would not pay.
-const FEWEST_GROUPED: usize = 2 * GROUP;
+/// With fewer parts each of them is a line of its own in the text. Many are found through a hierarchy of boxes, and share a
+/// function with all others of the same form. In software, 20 parts are drawn faster one by one, 100 through the hierarchy.
+const FEWEST_OF_MANY: usize = 24;
 
 /// Places of everything whose number depends on the scene.
 #[derive(Clone, Debug)]
@@ -59,8 +60,11 @@ pub(crate) struct Layout {
     pub(crate) part_count: usize,
     /// Parts that need a slope to be marched.
     pub(crate) formula_count: usize,
-    pub(crate) groups: usize,
-    pub(crate) group_count: usize,
+    /// Nodes of the hierarchy, of which there are none if parts are few.
+    pub(crate) nodes: usize,
+    pub(crate) node_count: usize,
+    /// What is known of the surfaces of parts, if they are many.
+    pub(crate) surfaces: usize,
     pub(crate) planes: usize,
     pub(crate) plane_count: usize,
     pub(crate) regions: usize,
@@ -77,14 +81,35 @@ impl Layout {
         constant_count: usize,
     ) -> Self {
         let parts: usize = HEADER.iter().map(|(_, count)| count).sum();
-        let groups = parts + PART_SIZE * part_count;
-        let group_count = if part_count < FEWEST_GROUPED { 0 } else { part_count.div_ceil(GROUP) };
-        let planes = groups + GROUP_SIZE * group_count;
+        // Nodes are aligned, so that vectors of four hold what belongs together.
+        let (nodes, node_count, surface_count) = match parts + PART_SIZE * part_count {
+            end if part_count < FEWEST_OF_MANY => (end, 0, 0),
+            end => (end.next_multiple_of(4), hierarchy::node_count(part_count), part_count),
+        };
+        let surfaces = nodes + NODE_SIZE * node_count;
+        let planes = surfaces + SURFACE_SIZE * surface_count;
         let regions = planes + PLANE_SIZE * plane_count;
         // Aligned, so that vectors of four hold what belongs together more often.
         let constants = (regions + REGION_SIZE * region_count).next_multiple_of(4);
         let lights = (constants + constant_count).next_multiple_of(4);
-        Self { parts, part_count, formula_count, groups, group_count, planes, plane_count, regions, constants, lights }
+        Self {
+            parts,
+            part_count,
+            formula_count,
+            nodes,
+            node_count,
+            surfaces,
+            planes,
+            plane_count,
+            regions,
+            constants,
+            lights,
+        }
+    }
+
+    /// Whether parts are found through the hierarchy.
+    pub(crate) fn is_many(&self) -> bool {
+        self.node_count > 0
     }
 
     /// The places and sizes as constants of the module.
@@ -100,6 +125,11 @@ impl Layout {
             ("PART_SIZE", PART_SIZE),
             ("PART_COUNT", self.part_count),
             ("FORMULA_COUNT", self.formula_count),
+            ("NODES", self.nodes),
+            ("NODE_SIZE", NODE_SIZE),
+            ("NODES_END", self.nodes + NODE_SIZE * self.node_count),
+            ("SURFACES", self.surfaces),
+            ("SURFACE_SIZE", SURFACE_SIZE),
             ("PLANES", self.planes),
             ("PLANE_SIZE", PLANE_SIZE),
             ("PLANE_COUNT", self.plane_count),

@@ -116,8 +116,8 @@ impl Part {
     }
 
     /// Statements that compute the shares of its regions at the point `p`, and one for each region.
-    pub(crate) fn shares(&self, name: &str, helpers: &mut Helpers) -> (Vec<Statement>, Vec<Expr>) {
-        let mut walk = Walk::new(self, Want::Value, Base::At(self.base), name, helpers);
+    pub(crate) fn shares(&self, base: Base, name: &str, helpers: &mut Helpers) -> (Vec<Statement>, Vec<Expr>) {
+        let mut walk = Walk::new(self, Want::Value, base, name, helpers);
         walk.all();
         walk.shares()
     }

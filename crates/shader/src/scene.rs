@@ -2,57 +2,59 @@
 //! each part that is more than a call.
 
 use crate::helpers::{Base, Helpers, Want};
-use crate::layout::{GROUP, GROUP_SIZE, Layout, PART_SIZE, REGION_SIZE};
+use crate::layout::{Layout, PART_SIZE, REGION_SIZE};
 use crate::part::Part;
 use crate::tree::{Expr, Function, Item, Operator, Statement, Type};
+use std::collections::HashMap;
 
 /// A part that takes more simple operations than this is passed over by its box, which takes about ten.
 const CHEAP: usize = 40;
 
 /// For each part the number of its form, in the order in which forms appear.
 pub(crate) fn kinds(parts: &[Part]) -> Vec<usize> {
-    let mut forms: Vec<String> = Vec::new();
+    let mut forms: HashMap<String, usize> = HashMap::new();
     let kind = |(index, part): (usize, &Part)| {
-        let form = part.form(index);
-        forms.iter().position(|own| *own == form).unwrap_or_else(|| {
-            forms.push(form);
-            forms.len() - 1
-        })
+        let next = forms.len();
+        *forms.entry(part.form(index)).or_insert(next)
     };
     parts.iter().enumerate().map(kind).collect()
 }
 
-/// All functions that depend on the scene. Values, which take all the time, read constants at known places; gradients are
-/// written once for each form.
+/// All functions that depend on a scene of few parts. Values, which take all the time, read constants at known places; gradients
+/// are written once for each form.
 pub(crate) fn items(parts: &[Part], kinds: &[usize], layout: &Layout, mut helpers: Helpers) -> Vec<Item> {
     let names: Vec<String> = parts.iter().map(|part| helpers.names.make(&part.source.name)).collect();
     let mut own = Vec::new();
     let mut values = Vec::new();
     let mut gradients = Vec::new();
     for (part, name) in parts.iter().zip(&names) {
-        values.push(one(part, Want::Value, name, &mut helpers, &mut own));
+        values.push(one(part, Want::Value, Base::At(part.base), name, &mut helpers, &mut own));
     }
     for ((part, name), &kind) in parts.iter().zip(&names).zip(kinds) {
         if kind == gradients.len() {
-            gradients.push(one(part, Want::Gradient, name, &mut helpers, &mut own));
+            let base = if part.is_measured { Base::First } else { Base::At(part.base) };
+            gradients.push(one(part, Want::Gradient, base, name, &mut helpers, &mut own));
         }
     }
-    let surfaces = surface_at(parts, &names, layout, &mut helpers, &mut own);
+    let surfaces = surface_at(surfaces(parts, &names, layout, &mut helpers, &mut own));
     let has_steps = parts.iter().any(|part| !part.is_measured);
     let nearest = nearest(parts, &names, &values, layout);
     let unscaled = unscaled(parts, &names, &values, layout, has_steps);
     let free_ahead = free_ahead(parts, &names, &values, &gradients, kinds, layout);
-    let last = [nearest, free_ahead, unscaled, whole(layout), part_gradient(&gradients), whole_gradient(), surfaces];
+    let last = [nearest, free_ahead, unscaled, whole(layout.plane_count), part_gradient(&gradients), whole_gradient(), surfaces];
     helpers.functions.into_iter().chain(own).chain(last).map(Item::Function).collect()
 }
 
 /// What computes a part: the expression itself if it is but a call, otherwise a call of a function for it.
-fn one(part: &Part, want: Want, name: &str, helpers: &mut Helpers, own: &mut Vec<Function>) -> Expr {
+pub(crate) fn one(
+    part: &Part,
+    want: Want,
+    base: Base,
+    name: &str,
+    helpers: &mut Helpers,
+    own: &mut Vec<Function>,
+) -> Expr {
     let before = helpers.functions.len();
-    let base = match want {
-        Want::Gradient if part.is_measured => Base::First,
-        Want::Value | Want::Gradient => Base::At(part.base),
-    };
     let (mut body, result) = part.value(want, base, name, helpers);
     if body.is_empty() {
         return result;
@@ -71,6 +73,9 @@ fn one(part: &Part, want: Want, name: &str, helpers: &mut Helpers, own: &mut Vec
         Want::Gradient => (helpers.names.make(&format!("{name}_gradient")), Type::Vector(4)),
     };
     let comment = match want {
+        Want::Value if matches!(base, Base::First) => {
+            vec![format!("The distance from {:?}, or another part of its form.", part.source.name)]
+        }
         Want::Value => vec![format!("The distance from {:?}.", part.source.name)],
         Want::Gradient => Vec::new(),
     };
@@ -111,21 +116,13 @@ fn apart(place: usize) -> Expr {
 fn search(parts: &[Part], layout: &Layout, statement: impl Fn(usize) -> Vec<Statement>) -> Vec<Statement> {
     let is_nearer = |place: usize| Expr::binary(Operator::Less, apart(place), Expr::name("d").member("x"));
     let mut body = vec![nothing()];
-    let mut group = Vec::new();
     for (index, part) in parts.iter().enumerate() {
-        let mut statements = statement(index);
+        let statements = statement(index);
         if part.cost() > CHEAP && index > 0 {
             let box_place = layout.parts + PART_SIZE * index;
-            statements = vec![Statement::If(is_nearer(box_place), statements, Vec::new())];
-        }
-        if layout.group_count == 0 {
-            body.append(&mut statements);
-            continue;
-        }
-        group.append(&mut statements);
-        if (index + 1) % GROUP == 0 || index + 1 == parts.len() {
-            let place = layout.groups + GROUP_SIZE * (index / GROUP);
-            body.push(Statement::If(is_nearer(place), std::mem::take(&mut group), Vec::new()));
+            body.push(Statement::If(is_nearer(box_place), statements, Vec::new()));
+        } else {
+            body.extend(statements);
         }
     }
     body
@@ -226,9 +223,10 @@ fn unscaled(parts: &[Part], names: &[String], values: &[Expr], layout: &Layout, 
     of_point("unscaled", comment, Type::Vector(2), body)
 }
 
-fn whole(layout: &Layout) -> Function {
+/// The field of all parts and planes.
+pub(crate) fn whole(plane_count: usize) -> Function {
     let marched = Expr::call("unscaled", [Expr::name("p")]);
-    let whole = match layout.plane_count {
+    let whole = match plane_count {
         0 => marched,
         _ => Expr::call("nearest_plane", [marched, Expr::name("p")]),
     };
@@ -240,7 +238,7 @@ fn is_part(index: usize) -> Expr {
     Expr::binary(Operator::Equal, Expr::name("part"), Expr::Int(index as i64))
 }
 
-fn part_gradient(gradients: &[Expr]) -> Function {
+pub(crate) fn part_gradient(gradients: &[Expr]) -> Function {
     let number = |place: i64| {
         let at = Expr::name("PARTS") + Expr::name("PART_SIZE") * Expr::name("part") + Expr::Int(place);
         Expr::Make(Type::Int, vec![Expr::Parameter(Box::new(at))])
@@ -262,7 +260,7 @@ fn part_gradient(gradients: &[Expr]) -> Function {
 }
 
 /// The gradient of the whole scene's field.
-fn whole_gradient() -> Function {
+pub(crate) fn whole_gradient() -> Function {
     let text = "
         // The gradient of the whole scene's field at a point, and its value.
         fn field_gradient(p: vec3<f32>) -> vec4<f32> {
@@ -281,30 +279,40 @@ fn whole_gradient() -> Function {
     }
 }
 
-fn surface_at(
+/// The surface of a part of several regions, each with its share. `region` gives the place of a region.
+pub(crate) fn surface_body(
+    part: &Part,
+    base: Base,
+    region: impl Fn(usize) -> Expr,
+    name: &str,
+    helpers: &mut Helpers,
+) -> Vec<Statement> {
+    let spot = || Expr::name("spot");
+    let (mut statements, shares) = part.shares(base, name, helpers);
+    statements.insert(0, Statement::Let("p".into(), Type::Vector(3), spot().member("position")));
+    let surface = Expr::name("surface");
+    let empty = Expr::call("no_surface", []);
+    statements.push(Statement::Var("surface".into(), Type::Struct("Surface".into()), empty));
+    for (index, share) in shares.into_iter().enumerate() {
+        let sum = Expr::call("with_share", [surface.clone(), share, region(index), spot()]);
+        statements.push(Statement::Assign(surface.clone(), sum));
+    }
+    statements.push(Statement::Return(Expr::call("settled", [surface])));
+    statements
+}
+
+/// The surfaces of those parts that have several regions, each by a function of its own.
+fn surfaces(
     parts: &[Part],
     names: &[String],
     layout: &Layout,
     helpers: &mut Helpers,
     own: &mut Vec<Function>,
-) -> Function {
+) -> Vec<Statement> {
     let mut body = Vec::new();
-    let spot = || Expr::name("spot");
-    for (index, (part, name)) in parts.iter().zip(names).enumerate() {
-        if part.regions.len() < 2 {
-            continue;
-        }
-        let (mut statements, shares) = part.shares(name, helpers);
-        statements.insert(0, Statement::Let("p".into(), Type::Vector(3), spot().member("position")));
-        let surface = Expr::name("surface");
-        let empty = Expr::call("no_surface", []);
-        statements.push(Statement::Var("surface".into(), Type::Struct("Surface".into()), empty));
-        for (share, &region) in shares.into_iter().zip(&part.regions) {
-            let place = Expr::Int((layout.regions + REGION_SIZE * region) as i64);
-            let sum = Expr::call("with_share", [surface.clone(), share, place, spot()]);
-            statements.push(Statement::Assign(surface.clone(), sum));
-        }
-        statements.push(Statement::Return(Expr::call("settled", [surface])));
+    for (index, (part, name)) in parts.iter().zip(names).enumerate().filter(|(_, (part, _))| part.regions.len() > 1) {
+        let region = |region: usize| Expr::Int((layout.regions + REGION_SIZE * part.regions[region]) as i64);
+        let statements = surface_body(part, Base::At(part.base), region, name, helpers);
         let name = helpers.names.make(&format!("{name}_surface"));
         own.push(Function {
             name: name.clone(),
@@ -313,11 +321,16 @@ fn surface_at(
             result: Type::Struct("Surface".into()),
             body: statements,
         });
-        let call = Expr::call(name, [spot()]);
+        let call = Expr::call(name, [Expr::name("spot")]);
         body.push(Statement::If(is_part(index), vec![Statement::Return(call)], Vec::new()));
     }
+    body
+}
+
+/// The function of all surfaces: `body` returns those of several regions.
+pub(crate) fn surface_at(mut body: Vec<Statement>) -> Function {
     let first = Expr::name("REGIONS") + Expr::name("REGION_SIZE") * Expr::name("part");
-    let only = Expr::call("with_share", [Expr::call("no_surface", []), Expr::Float(1.0), first, spot()]);
+    let only = Expr::call("with_share", [Expr::call("no_surface", []), Expr::Float(1.0), first, Expr::name("spot")]);
     body.push(Statement::Return(only));
     Function {
         name: "surface_at".into(),

@@ -2,7 +2,9 @@
 
 use crate::curvature::curvature;
 use crate::helpers::Helpers;
-use crate::layout::{GROUP, GROUP_SIZE, LIGHT_SIZE, Layout, PART_SIZE, PLANE_SIZE, REGION_SIZE, write};
+use crate::hierarchy::{Leaf, write_nodes};
+use crate::layout::{LIGHT_SIZE, Layout, PART_SIZE, PLANE_SIZE, REGION_SIZE, SURFACE_SIZE, write};
+use crate::many;
 use crate::module::needed;
 use crate::names::Names;
 use crate::numbers::{head, look, slope, write_box, write_light, write_singles};
@@ -103,7 +105,11 @@ impl Shader {
         let mut all = layout.items();
         all.extend(library);
         let kinds = scene::kinds(&parts);
-        all.extend(scene::items(&parts, &kinds, &layout, Helpers::new(names)));
+        let helpers = Helpers::new(names);
+        all.extend(match layout.is_many() {
+            true => many::items(&parts, &kinds, planes.len(), helpers),
+            false => scene::items(&parts, &kinds, &layout, helpers),
+        });
         let items = needed(&all, &ENTRIES);
         Ok(Self { parts, planes, layout, kinds, items })
     }
@@ -179,9 +185,16 @@ impl Shader {
                 self.write_region(&mut numbers, place, part.source.object, region.material, scene, &plan);
             }
         }
-        for (group, boxes) in boxes.chunks(GROUP).enumerate().take(self.layout.group_count) {
-            let all = boxes.iter().copied().reduce(|a, b| Some(a?.hull(b?))).flatten();
-            write_box(&mut numbers[self.layout.groups + GROUP_SIZE * group..], all, plan.origin);
+        if self.layout.is_many() {
+            let leaf = |(part, &bounds)| Leaf { part, bounds, constants: self.parts[part].base };
+            let mut leaves: Vec<Leaf> = boxes.iter().enumerate().map(leaf).collect();
+            write_nodes(&mut numbers, self.layout.nodes, &mut leaves, plan.origin);
+            for (index, (part, form)) in self.parts.iter().zip(many::surface_kinds(&self.parts)).enumerate() {
+                let form = form.map_or(-1.0, |form| form as f64);
+                let second = part.regions.get(1).map_or(0, |region| self.layout.regions + REGION_SIZE * region);
+                let place = self.layout.surfaces + SURFACE_SIZE * index;
+                write(&mut numbers[place..], &[form, second as f64]);
+            }
         }
         for (index, plane) in planes.iter().enumerate() {
             let form = plan.objects[plane.object].exact.expect("a plane");
