@@ -49,7 +49,7 @@ impl Frames {
         let (source, parameters) = Source::new(&scene)?;
         let text = start.elapsed();
         let start = Instant::now();
-        let kernel = Kernel::new(gpu, source.text(), parameters.numbers(), View::SIZE)?;
+        let kernel = Kernel::new(gpu, source.text(), (&parameters).into(), View::SIZE)?;
         let creation = Creation { text, pipelines: start.elapsed(), text_bytes: source.text().len() };
         let sums = kernel.sums(frame.pixels())?;
         let tiler = Tiler::new(frame, MOST_TILE_PIXELS, BUDGET);
@@ -111,7 +111,8 @@ impl Frames {
     fn look(&mut self, camera: &Camera) -> Result<(), DrawError> {
         self.scene.camera = Some(camera.clone());
         self.parameters.look(&self.scene)?;
-        Ok(self.kernel.set_parameters(self.parameters.numbers())?)
+        self.kernel.set_parameters(self.parameters.numbers());
+        Ok(())
     }
 
     fn send(&self, tile: Rect) -> Result<wgpu::SubmissionIndex, DrawError> {

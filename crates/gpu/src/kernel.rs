@@ -5,6 +5,7 @@
 
 use crate::device::{Gpu, GpuError, bytes_of};
 use freikugel_render::Rect;
+use freikugel_shader::Parameters;
 use std::sync::{Arc, OnceLock};
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry,
@@ -32,6 +33,8 @@ const PLACE_BYTES: u64 = 32;
 pub(crate) struct Kernel {
     gpu: Arc<Gpu>,
     module: wgpu::ShaderModule,
+    /// How the shader reads the scene's numbers.
+    access: Access,
     render: ComputePipeline,
     slice: OnceLock<ComputePipeline>,
     layout: BindGroupLayout,
@@ -42,6 +45,29 @@ pub(crate) struct Kernel {
     add: ComputePipeline,
     add_layout: BindGroupLayout,
     place: Buffer,
+}
+
+/// The numbers of a scene, and where the shader wants them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Table<'a> {
+    pub(crate) numbers: &'a [f32],
+    pub(crate) is_uniform: bool,
+}
+
+impl<'a> From<&'a Parameters> for Table<'a> {
+    fn from(parameters: &'a Parameters) -> Self {
+        Self { numbers: parameters.numbers(), is_uniform: parameters.is_uniform() }
+    }
+}
+
+impl Table<'_> {
+    fn access(self) -> Access {
+        if self.is_uniform { Access::Uniform } else { Access::Read }
+    }
+
+    fn usage(self) -> BufferUsages {
+        BufferUsages::COPY_DST | if self.is_uniform { BufferUsages::UNIFORM } else { BufferUsages::STORAGE }
+    }
 }
 
 /// What computes a sample.
@@ -68,17 +94,16 @@ impl Kernel {
     ///
     /// # Errors
     /// If the device refuses it, or its memory does not suffice.
-    pub(crate) fn new(gpu: &Arc<Gpu>, text: &str, parameters: &[f32], view_bytes: usize) -> Result<Self, GpuError> {
+    pub(crate) fn new(gpu: &Arc<Gpu>, text: &str, table: Table<'_>, view_bytes: usize) -> Result<Self, GpuError> {
         let module = gpu.module(text)?;
-        let layout = layout(gpu, &[Access::Read, Access::Uniform, Access::Write])?;
+        let layout = layout(gpu, &[table.access(), Access::Uniform, Access::Write])?;
         let render = pipeline(gpu, &module, &layout, "render")?;
         let add_layout = self::layout(gpu, &[Access::Uniform, Access::Read, Access::Write])?;
         let adder = gpu.module(include_str!("accumulate.wgsl"))?;
         let add = pipeline(gpu, &adder, &add_layout, "add")?;
 
-        let storage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-        let parameters = filled(gpu, "the scene's numbers", parameters, storage)?;
+        let parameters = filled(gpu, "the scene's numbers", table.numbers, table.usage())?;
         let view = gpu.buffer("the view", view_bytes as u64, uniform)?;
         let tile = gpu.buffer("a tile's colours", MOST_TILE_PIXELS * PIXEL, BufferUsages::STORAGE)?;
         let place = gpu.buffer("a tile's place", PLACE_BYTES, uniform)?;
@@ -86,6 +111,7 @@ impl Kernel {
         Ok(Self {
             gpu: Arc::clone(gpu),
             module,
+            access: table.access(),
             render,
             slice: OnceLock::new(),
             layout,
@@ -99,20 +125,9 @@ impl Kernel {
         })
     }
 
-    /// Takes other numbers for the same shader.
-    ///
-    /// # Errors
-    /// If memory does not suffice for them.
-    pub(crate) fn set_parameters(&mut self, parameters: &[f32]) -> Result<(), GpuError> {
-        let bytes = bytes_of(parameters);
-        if bytes.len() as u64 > self.parameters.size() {
-            let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
-            self.parameters = filled(&self.gpu, "the scene's numbers", parameters, usage)?;
-            self.bindings = bind(&self.gpu, &self.layout, &[&self.parameters, &self.view, &self.tile])?;
-        } else {
-            self.gpu.queue().write_buffer(&self.parameters, 0, &bytes);
-        }
-        Ok(())
+    /// Takes other numbers for the same shader, as many as it has.
+    pub(crate) fn set_parameters(&self, numbers: &[f32]) {
+        self.gpu.queue().write_buffer(&self.parameters, 0, &bytes_of(numbers));
     }
 
     /// Sums for a picture, undefined until the first samples are added.
@@ -185,7 +200,7 @@ impl Kernel {
     /// If the device refuses, or its memory does not suffice.
     pub(crate) fn probe(&self, view: &[u8], points: &[[f32; 3]]) -> Result<Vec<[f32; 4]>, GpuError> {
         let gpu = &self.gpu;
-        let layout = layout_at(gpu, &[(0, Access::Read), (1, Access::Uniform), (3, Access::Read), (4, Access::Write)])?;
+        let layout = layout_at(gpu, &[(0, self.access), (1, Access::Uniform), (3, Access::Read), (4, Access::Write)])?;
         let pipeline = pipeline(gpu, &self.module, &layout, "probe")?;
         gpu.queue().write_buffer(&self.view, 0, view);
         let mut results = Vec::with_capacity(points.len());
@@ -235,7 +250,7 @@ impl Sums {
 const PIXEL: u64 = 16;
 
 /// How a shader uses a buffer.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum Access {
     Uniform,
     Read,
@@ -341,7 +356,7 @@ mod tests {
 
     fn kernel(parameters: &[f32]) -> Kernel {
         let gpu = Gpu::open(&Choice::Automatic).unwrap_or_else(|error| panic!("{error}"));
-        Kernel::new(&Arc::new(gpu), TEXT, parameters, 24).unwrap_or_else(|error| panic!("{error}"))
+        Kernel::new(&Arc::new(gpu), TEXT, Table { numbers: parameters, is_uniform: false }, 24).unwrap_or_else(|error| panic!("{error}"))
     }
 
     #[test]

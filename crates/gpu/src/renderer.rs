@@ -46,7 +46,7 @@ impl GpuRenderer {
     /// If it has mistakes, or the graphics processor refuses its shader.
     pub fn new(gpu: &Arc<Gpu>, scene: &Scene) -> Result<Self, DrawError> {
         let (source, parameters) = Source::new(scene)?;
-        let kernel = Kernel::new(gpu, source.text(), parameters.numbers(), View::SIZE)?;
+        let kernel = Kernel::new(gpu, source.text(), (&parameters).into(), View::SIZE)?;
         Ok(Self { scene: scene.clone(), source, parameters, kernel, budget: BUDGET })
     }
 
@@ -147,7 +147,7 @@ impl GpuRenderer {
     /// # Errors
     /// If the graphics processor fails.
     pub fn probe(&mut self, points: &[DVec3]) -> Result<Vec<(DVec3, f64)>, DrawError> {
-        self.kernel.set_parameters(self.parameters.numbers())?;
+        self.kernel.set_parameters(self.parameters.numbers());
         let origin = self.parameters.origin();
         let points: Vec<[f32; 3]> = points.iter().map(|point| (*point - origin).as_vec3().to_array()).collect();
         let view = View::of(1, 1).bytes();
@@ -163,7 +163,8 @@ impl GpuRenderer {
         let looked = self.parameters.look(&self.scene);
         self.scene.camera = given;
         looked?;
-        Ok(self.kernel.set_parameters(self.parameters.numbers())?)
+        self.kernel.set_parameters(self.parameters.numbers());
+        Ok(())
     }
 
     fn picture(

@@ -26,6 +26,6 @@ fn slice(@builtin(global_invocation_id) id: vec3<u32>) {
 
 // The width of a pixel at a distance in front of the eye.
 fn pixel_width(depth: f32) -> f32 {
-    let footprint = parameters[FOOTPRINT] + parameters[FOOTPRINT + 1] * depth;
+    let footprint = parameter(FOOTPRINT) + parameter(FOOTPRINT + 1) * depth;
     return max(footprint, 1e-9);
 }

@@ -28,7 +28,7 @@
 //!
 //! | binding | name | is |
 //! |---|---|---|
-//! | 0 | `parameters` | `array<f32>`, storage, read: [`Parameters::numbers`] |
+//! | 0 | `parameters` | `array<vec4<f32>, n>`, uniform or (beyond [`MOST_UNIFORM_BYTES`]) storage, read: [`Parameters::numbers`] |
 //! | 1 | `view` | uniform of 48 bytes: [`View::bytes`] |
 //! | 2 | `output` | `array<vec4<f32>>`, storage, read and write: one entry for each pixel of the tile, row by row |
 //! | 3 | `points` | `array<vec4<f32>>`, storage, read |
@@ -75,5 +75,5 @@ mod view;
 pub mod wgsl;
 
 pub use shader::{Parameters, Shader, ShaderError};
-pub use target::{TEXTURE_WIDTH, Target};
+pub use target::{MOST_UNIFORM_BYTES, TEXTURE_WIDTH, Target};
 pub use view::{Show, View};

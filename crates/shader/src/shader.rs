@@ -11,6 +11,7 @@ use crate::numbers::{head, look, slope, write_box, write_light, write_singles};
 use crate::parse::parse;
 use crate::part::{Part, Source, outline_key, sources};
 use crate::scene;
+use crate::target::MOST_UNIFORM_BYTES;
 use crate::tree::Item;
 use freikugel_field::shape::ExactForm;
 use freikugel_field::{Aabb, Action, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Structure, find_extent};
@@ -37,11 +38,16 @@ const ENTRIES: [&str; 7] =
 /// What boxes of formulas are widened by, relative to their size, so that surfaces on their border lie inside.
 const BOX_MARGIN: f64 = 1e-3;
 
+/// Room for lights comes in this many.
+const LIGHTS_AT_ONCE: usize = 4;
+
 /// A scene made into a shader.
 pub struct Shader {
     parts: Vec<Part>,
     planes: Vec<Plane>,
     layout: Layout,
+    /// Lights that there is room for.
+    light_room: usize,
     /// Which form each part has.
     kinds: Vec<usize>,
     items: Vec<Item>,
@@ -57,6 +63,8 @@ struct Plane {
 #[derive(Clone, Debug)]
 pub struct Parameters {
     numbers: Vec<f32>,
+    /// How many of them mean something; the others are room for lights.
+    used: usize,
     origin: DVec3,
     notices: Vec<String>,
 }
@@ -111,7 +119,8 @@ impl Shader {
             false => scene::items(&parts, &kinds, &layout, helpers),
         });
         let items = needed(&all, &ENTRIES);
-        Ok(Self { parts, planes, layout, kinds, items })
+        let light_room = light_room(plan.lights.len());
+        Ok(Self { parts, planes, layout, light_room, kinds, items })
     }
 
     /// What all targets share: everything but the declarations of parameters and view, and the entry points.
@@ -124,9 +133,9 @@ impl Shader {
         self.parts.len()
     }
 
-    /// How many parameters a scene with this many lights has.
-    pub fn parameter_count(&self, lights: usize) -> usize {
-        self.layout.lights + LIGHT_SIZE * lights
+    /// How many parameters there are: a multiple of four.
+    fn parameter_count(&self) -> usize {
+        (self.layout.lights + LIGHT_SIZE * self.light_room).next_multiple_of(4)
     }
 
     /// The numbers of a scene of the form that the shader was made for. The size and the samples of its picture count too: they
@@ -138,7 +147,10 @@ impl Shader {
         let plan = plan(scene)?;
         let (parts, planes) = dissect(scene, &plan)?;
         self.compare(scene, &parts, &planes)?;
-        let mut numbers = vec![0.0; self.parameter_count(plan.lights.len())];
+        if light_room(plan.lights.len()) != self.light_room {
+            return Err(ShaderError::OtherScene("lights".into()));
+        }
+        let mut numbers = vec![0.0; self.parameter_count()];
         let mut notices = Vec::new();
         head(&mut numbers, scene, &plan);
         let mut boxes = Vec::with_capacity(parts.len());
@@ -213,7 +225,8 @@ impl Shader {
             let place = self.layout.lights + LIGHT_SIZE * index;
             write_light(&mut numbers[place..place + LIGHT_SIZE], light);
         }
-        Ok(Parameters { numbers, origin: plan.origin, notices })
+        let used = self.layout.lights + LIGHT_SIZE * plan.lights.len();
+        Ok(Parameters { numbers, used, origin: plan.origin, notices })
     }
 
     /// Whether the parts of a scene are those of this shader but for their numbers.
@@ -278,6 +291,16 @@ impl Parameters {
         &self.numbers
     }
 
+    /// Those numbers that mean something: all but the room for further lights at the end.
+    pub(crate) fn used(&self) -> &[f32] {
+        &self.numbers[..self.used]
+    }
+
+    /// Whether the texts in WGSL and MSL keep them as uniforms, otherwise in a storage buffer.
+    pub fn is_uniform(&self) -> bool {
+        size_of_val(self.numbers.as_slice()) <= MOST_UNIFORM_BYTES
+    }
+
     /// The point of the world that the shader's coordinates are relative to.
     pub fn origin(&self) -> DVec3 {
         self.origin
@@ -306,6 +329,11 @@ impl Parameters {
         look(&mut self.numbers, &bare, &plan, self.origin);
         Ok(())
     }
+}
+
+/// How many lights the table has room for in a scene that has some: so many that one more hardly ever needs another text.
+fn light_room(lights: usize) -> usize {
+    (lights + 1).next_multiple_of(LIGHTS_AT_ONCE)
 }
 
 fn plan(scene: &Scene) -> Result<Plan, ShaderError> {

@@ -41,6 +41,10 @@ impl Target {
     }
 }
 
+/// Bytes of uniforms that every WebGPU device has room for in one piece. Drivers load them at once for all rays that run side by
+/// side, and from anywhere else for each of them.
+pub const MOST_UNIFORM_BYTES: usize = 1 << 16;
+
 /// WebGL 2 guarantees this many vectors of uniforms; a few are left for others.
 const MOST_UNIFORMS: usize = 220;
 
@@ -52,6 +56,7 @@ pub const TEXTURE_WIDTH: usize = 256;
 
 impl Shader {
     /// The text for a target. Only that for Shadertoy depends on the numbers; its host has no place for them outside the text.
+    /// Those for WGSL and MSL keep up to [`MOST_UNIFORM_BYTES`] as uniforms, more in a storage buffer.
     /// That for WebGL 2 depends on how many there are: up to 220 vectors of four are uniforms, up to 12 times [`glsl::BLOCK_VECTORS`] come in
     /// blocks of uniforms, more in a texture.
     ///
@@ -60,19 +65,27 @@ impl Shader {
     pub fn text(&self, target: Target, parameters: &Parameters) -> Result<String, ShaderError> {
         match target {
             Target::Wgsl => {
-                let text = self.wgsl(WGSL_SHELL);
+                let text = self.wgsl(WGSL_SHELL, parameters.is_uniform(), parameters);
                 validated(&text)?;
                 Ok(text)
             }
             Target::Glsl => Ok(self.webgl(parameters)),
             Target::Shadertoy => Ok(self.shadertoy(parameters)),
-            Target::Hlsl => self.hlsl(),
-            Target::Msl => self.msl(),
+            Target::Hlsl => self.hlsl(parameters),
+            Target::Msl => self.msl(parameters),
         }
     }
 
-    fn wgsl(&self, shell: &str) -> String {
+    fn wgsl(&self, shell: &str, is_uniform: bool, parameters: &Parameters) -> String {
         let mut text = String::from(WGSL_HEAD);
+        // Of a length that is known, so that places are checked when the text is compiled, not on every ray.
+        let space = if is_uniform { "uniform" } else { "storage, read" };
+        let vectors = parameters.numbers().len() / 4;
+        let _ = write!(
+            text,
+            "@group(0) @binding(0) var<{space}> parameters: array<vec4<f32>, {vectors}>;\n\n\
+             fn parameter(place: i32) -> f32 {{\n    return parameters[place >> 2u][place & 3];\n}}\n\n"
+        );
         text.push_str(&wgsl::items(self.items()));
         text.push_str(shell);
         text
@@ -96,11 +109,11 @@ impl Shader {
 
     fn shadertoy(&self, parameters: &Parameters) -> String {
         let mut text = String::from(SHADERTOY_HEAD);
-        let numbers = parameters.numbers();
+        let numbers = parameters.used();
         let _ = writeln!(text, "const float parameters[{0}] = float[{0}](", numbers.len());
         for (row, numbers) in numbers.chunks(10).enumerate() {
             let line: Vec<String> = numbers.iter().map(|&number| crate::print::decimal(number)).collect();
-            let end = if (row + 1) * 10 >= parameters.numbers().len() { "" } else { "," };
+            let end = if (row + 1) * 10 >= parameters.used().len() { "" } else { "," };
             let _ = writeln!(text, "    {}{end}", line.join(", "));
         }
         text.push_str(");\n\n");
@@ -111,8 +124,8 @@ impl Shader {
         text
     }
 
-    fn hlsl(&self) -> Result<String, ShaderError> {
-        let (module, info) = validated(&self.wgsl(UNITY_SHELL))?;
+    fn hlsl(&self, parameters: &Parameters) -> Result<String, ShaderError> {
+        let (module, info) = validated(&self.wgsl(UNITY_SHELL, false, parameters))?;
         let options = naga::back::hlsl::Options {
             shader_model: naga::back::hlsl::ShaderModel::V5_0,
             fake_missing_bindings: true,
@@ -126,8 +139,8 @@ impl Shader {
         Ok(format!("{UNITY_HEAD}{text}{UNITY_TAIL}"))
     }
 
-    fn msl(&self) -> Result<String, ShaderError> {
-        let (module, info) = validated(&self.wgsl(WGSL_SHELL))?;
+    fn msl(&self, parameters: &Parameters) -> Result<String, ShaderError> {
+        let (module, info) = validated(&self.wgsl(WGSL_SHELL, parameters.is_uniform(), parameters))?;
         let options = naga::back::msl::Options { fake_missing_bindings: true, ..Default::default() };
         let (text, _) =
             naga::back::msl::write_string(&module, &info, &options, &naga::back::msl::PipelineOptions::default())

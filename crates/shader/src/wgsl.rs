@@ -4,7 +4,8 @@ use crate::print::{self, Language, decimal};
 use crate::tree::{Function, Item, Type};
 use std::fmt::Write;
 
-/// The text of some items. Parameters are read from an array of numbers called `parameters`.
+/// The text of some items. Parameters are read from an array of vectors of four called `parameters`; places that are computed go
+/// through the function `parameter`.
 pub fn items(items: &[Item]) -> String {
     print::items(&Wgsl, items)
 }
@@ -33,8 +34,8 @@ impl Language for Wgsl {
 
     fn parameter(&self, place: Result<usize, String>) -> String {
         match place {
-            Ok(place) => format!("parameters[{place}]"),
-            Err(place) => format!("parameters[{place}]"),
+            Ok(place) => format!("parameters[{}].{}", place / 4, ["x", "y", "z", "w"][place % 4]),
+            Err(place) => format!("parameter({place})"),
         }
     }
 

@@ -78,7 +78,7 @@ impl Stage {
         prepared(&mut scene, self.size, self.samples())?;
         if let Ok(parameters) = self.source.parameters(&scene) {
             (self.parameters, self.scene) = (parameters, scene);
-            self.kernel.set_parameters(self.parameters.numbers())?;
+            self.kernel.set_parameters(self.parameters.numbers());
         } else {
             let (source, parameters, kernel, scene) = compiled(&self.gpu, scene, self.size, self.samples())?;
             let [coarse, fine] = sums(&kernel, self.size)?;
@@ -116,7 +116,8 @@ impl Stage {
         let options = Options { width, height, samples: self.samples(), ..Options::default() };
         resized(&mut self.scene, &options);
         self.parameters.look(&self.scene)?;
-        Ok(self.kernel.set_parameters(self.parameters.numbers())?)
+        self.kernel.set_parameters(self.parameters.numbers());
+        Ok(())
     }
 
     /// Draws what comes next; the time of the picture if it was a whole one, as while things move.
@@ -259,7 +260,7 @@ fn compiled(
 ) -> Result<(Source, Parameters, Kernel, Scene), StageError> {
     prepared(&mut scene, size, samples)?;
     let (source, parameters) = Source::new(&scene)?;
-    let kernel = Kernel::new(gpu, source.text(), parameters.numbers(), View::SIZE)?;
+    let kernel = Kernel::new(gpu, source.text(), (&parameters).into(), View::SIZE)?;
     Ok((source, parameters, kernel, scene))
 }
 

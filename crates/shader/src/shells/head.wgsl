@@ -19,7 +19,7 @@ struct View {
     weight: f32,
 }
 
-// All numbers of the scene: changing them changes nothing else.
-@group(0) @binding(0) var<storage, read> parameters: array<f32>;
 @group(0) @binding(1) var<uniform> view: View;
+
+// All numbers of the scene: changing them changes nothing else.
 
