@@ -3,14 +3,10 @@
 //! not with that of parts.
 
 use crate::helpers::{Base, Helpers, Want};
-use crate::parse::parse;
 use crate::part::{Part, outline_key};
 use crate::scene::{one, surface_body};
 use crate::tree::{Expr, Function, Item, Operator, Statement, Type};
 use std::collections::HashMap;
-
-/// The walks through the hierarchy.
-const LIBRARY: &str = include_str!("library/many.wgsl");
 
 /// For each part of several regions the number of the form of its surface.
 pub(crate) fn surface_kinds(parts: &[Part]) -> Vec<Option<usize>> {
@@ -27,9 +23,6 @@ pub(crate) fn surface_kinds(parts: &[Part]) -> Vec<Option<usize>> {
 
 /// What the walks go by: values, gradients and surfaces of parts by their forms.
 pub(crate) fn items(parts: &[Part], kinds: &[usize], plane_count: usize, mut helpers: Helpers) -> Vec<Item> {
-    let library = parse(LIBRARY).expect("the library is sound");
-    library.iter().for_each(|item| helpers.names.take(item.name()));
-    helpers.names.take("part_value");
     let mut own = Vec::new();
     let mut names: Vec<String> = Vec::new();
     let mut values = Vec::new();
@@ -56,8 +49,7 @@ pub(crate) fn items(parts: &[Part], kinds: &[usize], plane_count: usize, mut hel
         crate::scene::whole_gradient(),
         surface_at(&surfaces),
     ];
-    let functions = helpers.functions.into_iter().chain(own).chain(last).map(Item::Function);
-    library.into_iter().chain(functions).collect()
+    helpers.functions.into_iter().chain(own).chain(last).map(Item::Function).collect()
 }
 
 /// Writes the function of a surface's form, and returns its call.

@@ -93,6 +93,13 @@ fn of_point(name: &str, comment: Vec<String>, result: Type, body: Vec<Statement>
     Function { name: name.into(), comment, arguments: vec![("p".into(), Type::Vector(3))], result, body }
 }
 
+/// A function that finds a value and a part where the value is less than a bound.
+fn up_to(name: &str, comment: Vec<String>, body: Vec<Statement>) -> Function {
+    let mut function = of_point(name, comment, Type::Vector(2), body);
+    function.arguments.push(("most".into(), Type::Float));
+    function
+}
+
 /// `d = closer(d, value, index)`
 fn closer(value: Expr, index: usize) -> Statement {
     closer_of(value, index as f32)
@@ -104,7 +111,7 @@ fn closer_of(value: Expr, part: f32) -> Statement {
 }
 
 fn nothing() -> Statement {
-    let far = Expr::vector([Expr::name("FAR"), Expr::Float(-1.0)]);
+    let far = Expr::vector([Expr::name("most"), Expr::Float(-1.0)]);
     Statement::Var("d".into(), Type::Vector(2), far)
 }
 
@@ -159,8 +166,11 @@ fn nearest(parts: &[Part], names: &[String], values: &[Expr], layout: &Layout) -
         ]
     });
     body.push(Statement::Return(Expr::name("d")));
-    let comment = vec!["How far a ray may go from a point before it meets a marched part, and which one: -2 for the box of the first, -3 for that of the second, and so on.".into()];
-    of_point("nearest", comment, Type::Vector(2), body)
+    let comment = vec![
+        "How far a ray may go from a point before it meets a marched part, and which one: -2 for the box of the first, -3 for".into(),
+        "that of the second, and so on; -1 where that is no less than `most`.".into(),
+    ];
+    up_to("nearest", comment, body)
 }
 
 /// As `nearest`, but along a ray: formulas are looked at by their slopes.
@@ -217,15 +227,18 @@ fn unscaled(parts: &[Part], names: &[String], values: &[Expr], layout: &Layout, 
         body = search(parts, layout, |index| tried(&values[index], &names[index], index));
         body.push(Statement::Return(Expr::name("d")));
     } else {
-        body.push(Statement::Return(Expr::call("nearest", [Expr::name("p")])));
+        body.push(Statement::Return(Expr::call("nearest", [Expr::name("p"), Expr::name("most")])));
     }
-    let comment = vec!["The field of all that is marched at a point, and the part that it belongs to.".into()];
-    of_point("unscaled", comment, Type::Vector(2), body)
+    let comment = vec![
+        "The field of all that is marched at a point, and the part that it belongs to; -1 where that is no less than `most`."
+            .into(),
+    ];
+    up_to("unscaled", comment, body)
 }
 
 /// The field of all parts and planes.
 pub(crate) fn whole(plane_count: usize) -> Function {
-    let marched = Expr::call("unscaled", [Expr::name("p")]);
+    let marched = Expr::call("unscaled", [Expr::name("p"), Expr::name("FAR")]);
     let whole = match plane_count {
         0 => marched,
         _ => Expr::call("nearest_plane", [marched, Expr::name("p")]),

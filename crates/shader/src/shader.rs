@@ -31,6 +31,10 @@ const LIBRARY: [&str; 6] = [
     include_str!("library/picture.wgsl"),
 ];
 
+/// How parts are found where they are few, and where they are many.
+const FEW: &str = include_str!("library/few.wgsl");
+const MANY: &str = include_str!("library/many.wgsl");
+
 /// What shells call; everything else is there for these.
 const ENTRIES: [&str; 7] =
     ["sample_along", "shown_along", "camera_ray", "field_gradient", "triple", "TARGET", "SHOW_LIT"];
@@ -105,9 +109,10 @@ impl Shader {
         parts.iter_mut().for_each(|part| part.base += layout.constants);
 
         let mut names = Names::new();
-        let library: Vec<Item> = LIBRARY.iter().flat_map(|text| parse(text).expect("the library is sound")).collect();
+        let walks = if layout.is_many() { MANY } else { FEW };
+        let library: Vec<Item> = LIBRARY.iter().chain(&[walks]).flat_map(|text| parse(text).expect("the library is sound")).collect();
         library.iter().for_each(|item| names.take(item.name()));
-        ["nearest", "free_ahead", "unscaled", "whole", "part_gradient", "field_gradient", "surface_at"]
+        ["nearest", "free_ahead", "unscaled", "whole", "part_gradient", "field_gradient", "surface_at", "part_value"]
             .iter()
             .for_each(|name| names.take(name));
         let mut all = layout.items();

@@ -37,36 +37,138 @@ fn leaf_from(first: i32, p: vec3<f32>, distance_so_far: f32) -> i32 {
     return node;
 }
 
-// The nearer of what is so far and the part of a node, as rays may go. Outside of the box of a part that has a slope in its box
-// only, the box is what is near, which is no surface.
-fn reach_of(node: i32, p: vec3<f32>, so_far: vec2<f32>) -> vec2<f32> {
-    let part: i32 = i32(parameters[node + 7]);
-    let place: i32 = PARTS + PART_SIZE * part;
-    if (FORMULA_COUNT > 0 && parameters[place + 10] > 0.0) {
-        let far: f32 = apart(p, place);
-        if (far > 0.0) {
-            return closer(so_far, far + parameters[place + 7], f32(-2 - part));
-        }
-        return closer(so_far, part_value(part, i32(parameters[node + 6]), p) * parameters[place + 6], f32(part));
-    }
-    return closer(so_far, part_value(part, i32(parameters[node + 6]), p), f32(part));
-}
-
-// How far a ray may go from a point before it meets a marched part, and which one: -2 for the box of the first, -3 for that of
-// the second, and so on.
-fn nearest(p: vec3<f32>) -> vec2<f32> {
-    let first: i32 = guess(p);
-    var d: vec2<f32> = reach_of(first, p, vec2<f32>(FAR, -1.0));
-    var node: i32 = NODES;
+// The first node from one on that holds a part, or the end of all nodes: a walk by what a ray passes before it ends.
+fn leaf_on(first: i32, ray: Ray, inverse: vec3<f32>, end: f32) -> i32 {
+    var node: i32 = first;
     loop {
-        node = leaf_from(node, p, d.x);
         if (node >= NODES_END) {
             break;
         }
-        d = reach_of(node, p, d);
+        let is_leaf: bool = parameters[node + 7] >= 0.0;
+        let span: vec2<f32> = span_in(ray, inverse, node);
+        let is_met: bool = span.x <= min(span.y, end);
+        if (is_met && is_leaf) {
+            break;
+        }
+        if (is_met || is_leaf) {
+            node += NODE_SIZE;
+        } else {
+            node = i32(parameters[node + 6]);
+        }
+    }
+    return node;
+}
+
+// The part of a ray inside a box, given by its middle and half its edges; nothing if the end comes before the beginning.
+fn span_in(ray: Ray, inverse: vec3<f32>, first: i32) -> vec2<f32> {
+    let middle: vec3<f32> = (triple(first) - ray.origin) * inverse;
+    let half: vec3<f32> = triple(first + 3) * abs(inverse);
+    let near: vec3<f32> = middle - half;
+    let far: vec3<f32> = middle + half;
+    return vec2<f32>(max(max(max(near.x, near.y), near.z), 0.0), min(min(far.x, far.y), far.z));
+}
+
+// The first node from one on that holds a part, or the end of all nodes: a walk by what a ray comes near to before it ends.
+fn leaf_around(first: i32, ray: Ray, end: f32, sharpness: f32) -> i32 {
+    var node: i32 = first;
+    loop {
+        if (node >= NODES_END) {
+            break;
+        }
+        let is_leaf: bool = parameters[node + 7] >= 0.0;
+        let span: vec2<f32> = penumbra(ray, triple(node), length(triple(node + 3)), sharpness);
+        let is_met: bool = span.x <= min(span.y, end);
+        if (is_met && is_leaf) {
+            break;
+        }
+        if (is_met || is_leaf) {
+            node += NODE_SIZE;
+        } else {
+            node = i32(parameters[node + 6]);
+        }
+    }
+    return node;
+}
+
+// How far a ray may go from a point before it meets a part, and which one that is: none outside of the box of one that has a slope
+// in its box only, which is near then instead, and no surface.
+fn reach_at(p: vec3<f32>, part: i32) -> vec2<f32> {
+    let place: i32 = PARTS + PART_SIZE * part;
+    let first: i32 = i32(parameters[place + 9]);
+    if (FORMULA_COUNT > 0 && parameters[place + 10] > 0.0) {
+        let far: f32 = apart(p, place);
+        if (far > 0.0) {
+            return vec2<f32>(far + parameters[place + 7], f32(-2 - part));
+        }
+        return vec2<f32>(part_value(part, first, p) * parameters[place + 6], f32(part));
+    }
+    return vec2<f32>(part_value(part, first, p), f32(part));
+}
+
+// How far a ray may go from a point in a direction before it meets a part.
+fn free_at(p: vec3<f32>, direction: vec3<f32>, part: i32) -> f32 {
+    let place: i32 = PARTS + PART_SIZE * part;
+    let scale: f32 = parameters[SCALE];
+    if (FORMULA_COUNT == 0 || parameters[place + 10] == 0.0) {
+        return part_value(part, i32(parameters[place + 9]), p) * scale;
+    }
+    let far: f32 = apart(p, place);
+    if (far > 0.0) {
+        return (far + parameters[place + 7]) * scale;
+    }
+    return ahead(part_gradient(part, p), direction, parameters[place + 11], parameters[place + 6] * scale);
+}
+
+// The first part that a ray meets before it ends. Each is marched alone, in its box.
+fn first_met(ray: Ray, end: f32) -> March {
+    let inverse: vec3<f32> = inverse_of(ray.direction);
+    var met: March = March(end, -1, 0, false, vec4<f32>(0.0));
+    var node: i32 = NODES;
+    loop {
+        node = leaf_on(node, ray, inverse, met.distance);
+        if (node >= NODES_END) {
+            break;
+        }
+        let span: vec2<f32> = span_in(ray, inverse, node);
+        let steps: i32 = met.steps;
+        let one: March = march(ray, span.x, min(span.y, met.distance), i32(parameters[node + 7]));
+        if (one.part >= 0 || one.is_unresolved) {
+            met = one;
+        }
+        met.steps = steps + one.steps;
         node += NODE_SIZE;
     }
-    return d;
+    return met;
+}
+
+// What the parts leave of a light along a ray.
+fn light_past(ray: Ray, end: f32, shade_of: Shade) -> f32 {
+    let inverse: vec3<f32> = inverse_of(ray.direction);
+    let sharpness: f32 = shade_of.sharpness * parameters[SCALE];
+    var factor: f32 = 1.0;
+    var node: i32 = NODES;
+    loop {
+        if (shade_of.is_soft) {
+            node = leaf_around(node, ray, end, sharpness);
+        } else {
+            node = leaf_on(node, ray, inverse, end);
+        }
+        if (node >= NODES_END) {
+            break;
+        }
+        var span: vec2<f32> = vec2<f32>(0.0);
+        if (shade_of.is_soft) {
+            span = penumbra(ray, triple(node), length(triple(node + 3)), sharpness);
+        } else {
+            span = span_in(ray, inverse, node);
+        }
+        factor = min(factor, light_along(ray, span.x, min(span.y, end), shade_of, i32(parameters[node + 7])));
+        if (factor == 0.0) {
+            break;
+        }
+        node += NODE_SIZE;
+    }
+    return factor;
 }
 
 // The nearer of what is so far and the part of a node, by the values of the field.
@@ -75,9 +177,12 @@ fn value_of(node: i32, p: vec3<f32>, so_far: vec2<f32>) -> vec2<f32> {
     return closer(so_far, part_value(part, i32(parameters[node + 6]), p), f32(part));
 }
 
-// The field of all parts at a point, and the part that it belongs to.
-fn unscaled(p: vec3<f32>) -> vec2<f32> {
-    var d: vec2<f32> = value_of(guess(p), p, vec2<f32>(FAR, -1.0));
+// The field of all parts at a point where it is less than `most`, and the part that it belongs to.
+fn unscaled(p: vec3<f32>, most: f32) -> vec2<f32> {
+    var d: vec2<f32> = vec2<f32>(most, -1.0);
+    if (most == FAR) {
+        d = value_of(guess(p), p, d);
+    }
     var node: i32 = NODES;
     loop {
         node = leaf_from(node, p, d.x);
@@ -88,39 +193,4 @@ fn unscaled(p: vec3<f32>) -> vec2<f32> {
         node += NODE_SIZE;
     }
     return d;
-}
-
-// How far a ray may go from a point in a direction, as far as the part of a node is concerned, and no farther than what is so far.
-fn free_of(node: i32, p: vec3<f32>, direction: vec3<f32>, so_far: f32) -> f32 {
-    let part: i32 = i32(parameters[node + 7]);
-    let place: i32 = PARTS + PART_SIZE * part;
-    let scale: f32 = parameters[SCALE];
-    if (parameters[place + 10] > 0.0) {
-        let far: f32 = apart(p, place);
-        if (far > 0.0) {
-            return min(so_far, (far + parameters[place + 7]) * scale);
-        }
-        let here: vec4<f32> = part_gradient(part, p);
-        return min(so_far, ahead(here, direction, parameters[place + 11], parameters[place + 6] * scale));
-    }
-    return min(so_far, part_value(part, i32(parameters[node + 6]), p) * scale);
-}
-
-// How far a ray may go from a point in a direction.
-fn free_ahead(p: vec3<f32>, direction: vec3<f32>) -> f32 {
-    // Without formulas nobody asks.
-    if (FORMULA_COUNT == 0) {
-        return FAR;
-    }
-    var free: f32 = free_of(guess(p), p, direction, FAR);
-    var node: i32 = NODES;
-    loop {
-        node = leaf_from(node, p, free / parameters[SCALE]);
-        if (node >= NODES_END) {
-            break;
-        }
-        free = free_of(node, p, direction, free);
-        node += NODE_SIZE;
-    }
-    return free;
 }

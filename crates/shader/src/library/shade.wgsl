@@ -66,10 +66,8 @@ fn reflected(surface: Surface, hit: Hit, incoming_light: Incoming, n_dot_l: f32)
     return incoming_light.light * (surface.shares.y * n_dot_l * surface.color + vec3<f32>(highlight));
 }
 
-// The part of a ray where the ball around all boxes is nearer than the distance travelled over `sharpness`.
-fn penumbra(ray: Ray, sharpness: f32) -> vec2<f32> {
-    let middle: vec3<f32> = 0.5 * (triple(BOUNDS) + triple(BOUNDS + 3));
-    let radius: f32 = 0.5 * length(triple(BOUNDS + 3) - triple(BOUNDS));
+// The part of a ray where a ball is nearer than the distance travelled over `sharpness`.
+fn penumbra(ray: Ray, middle: vec3<f32>, radius: f32, sharpness: f32) -> vec2<f32> {
     let away: vec3<f32> = ray.origin - middle;
     let spread: f32 = 1.0 / sharpness;
     let a: f32 = 1.0 - spread * spread;
@@ -105,6 +103,58 @@ fn seen_clearance(near: vec2<f32>, p: vec3<f32>) -> f32 {
     return max(safe, value.w / max(length(value.xyz), 1e-30));
 }
 
+// What a shadow ray goes by.
+struct Shade {
+    // Whether nearness dims the light already, and the ratio of distance to clearance at which it begins to.
+    is_soft: bool,
+    sharpness: f32,
+    // Field values that count as a hit: at the start, and how much more for each unit of length.
+    base: f32,
+    growth: f32,
+}
+
+// What is left of a light along a ray through what `reach_at` knows as `parts`.
+fn light_along(ray: Ray, start: f32, end: f32, shade_of: Shade, parts: i32) -> f32 {
+    var t: f32 = start;
+    var factor: f32 = 1.0;
+    var before: f32 = FAR;
+    for (var steps: i32 = 0; steps < i32(parameters[MAX_STEPS]); steps++) {
+        if (t >= end) {
+            break;
+        }
+        let p: vec3<f32> = ray.origin + t * ray.direction;
+        let near: vec2<f32> = reach_at(p, parts);
+        let value: f32 = near.x;
+        if (near.y >= 0.0 && value < shade_of.base * share_at(near.y) + shade_of.growth * t) {
+            return 0.0;
+        }
+        var clearance: f32 = value * parameters[SCALE];
+        if (!shade_of.is_soft && is_formula(near.y)) {
+            clearance = max(clearance, free_at(p, ray.direction, parts));
+        }
+        var step_length: f32 = clearance;
+        if (shade_of.is_soft) {
+            let here: f32 = shade_of.sharpness * seen_clearance(near, p) / max(t, 1e-30);
+            factor = min(factor, here);
+            if (factor < NEGLIGIBLE) {
+                return 0.0;
+            }
+            // Up to where clearance over distance could first fall below the least ratio so far.
+            let ratio: f32 = factor / shade_of.sharpness;
+            let safe: f32 = (clearance - t * ratio) / (1.0 + ratio);
+            let short_step: f32 = select(clearance * SHORTEST_STEP, clearance, here >= before * STEADY);
+            step_length = max(safe, short_step);
+            before = here;
+        }
+        t += step_length * parameters[STEP_FACTOR];
+    }
+    // A ray that still creeps along a formula grazes it.
+    if (FORMULA_COUNT > 0 && t < end) {
+        return 0.0;
+    }
+    return factor;
+}
+
 // The part of a light that arrives at a hit.
 fn shadow(first: i32, hit: Hit, incoming_light: Incoming) -> f32 {
     let kind: f32 = parameters[first + 16];
@@ -120,61 +170,20 @@ fn shadow(first: i32, hit: Hit, incoming_light: Incoming) -> f32 {
     if (PART_COUNT == 0) {
         return 1.0;
     }
-    let is_soft: bool = kind >= SHARPNESS;
     var sharpness: f32 = parameters[first + 17];
     if (kind > SHARPNESS) {
         sharpness = incoming_light.distance / sharpness;
     }
-    var span: vec2<f32> = clip(ray);
-    if (is_soft) {
-        span = penumbra(ray, sharpness);
-    }
-    let end: f32 = min(min(span.y, parameters[MAX_DISTANCE]), incoming_light.distance);
-    var t: f32 = span.x;
-    var factor: f32 = 1.0;
-    var before: f32 = FAR;
     let base: f32 = (SHADOW_HIT * hit.tolerance + ROUNDING * length(ray.origin)) * hit.slope;
-    let growth: f32 = ROUNDING * hit.slope;
-    for (var steps: i32 = 0; steps < i32(parameters[MAX_STEPS]); steps++) {
-        if (t >= end) {
-            break;
-        }
-        let near: vec2<f32> = nearest(ray.origin + t * ray.direction);
-        let value: f32 = near.x;
-        if (near.y >= 0.0 && value < base * share_at(near.y) + growth * t) {
-            return 0.0;
-        }
-        var clearance: f32 = value * parameters[SCALE];
-        if (!is_soft && is_formula(near.y)) {
-            clearance = max(clearance, free_ahead(ray.origin + t * ray.direction, ray.direction));
-        }
-        var step_length: f32 = clearance;
-        if (is_soft) {
-            let here: f32 = sharpness * seen_clearance(near, ray.origin + t * ray.direction) / max(t, 1e-30);
-            factor = min(factor, here);
-            if (factor < NEGLIGIBLE) {
-                return 0.0;
-            }
-            // Up to where clearance over distance could first fall below the least ratio so far.
-            let ratio: f32 = factor / sharpness;
-            let safe: f32 = (clearance - t * ratio) / (1.0 + ratio);
-            let short_step: f32 = select(clearance * SHORTEST_STEP, clearance, here >= before * STEADY);
-            step_length = max(safe, short_step);
-            before = here;
-        }
-        t += step_length * parameters[STEP_FACTOR];
-    }
-    // A ray that still creeps along a formula grazes it.
-    if (FORMULA_COUNT > 0 && t < end) {
-        return 0.0;
-    }
-    return factor;
+    let shade_of: Shade = Shade(kind >= SHARPNESS, sharpness, base, ROUNDING * hit.slope);
+    return light_past(ray, min(parameters[MAX_DISTANCE], incoming_light.distance), shade_of);
 }
 
 // How far away the nearest surface seems to be from a point that need not be outside of all. What has no scale, or a warped one,
-// is divided by its slope there, which is right to first order; without a slope nothing is known to be near.
-fn clearance(p: vec3<f32>) -> f32 {
-    let near: vec2<f32> = unscaled(p);
+// is divided by its slope there, which is right to first order; without a slope nothing is known to be near. No more than `most`.
+fn clearance(p: vec3<f32>, most: f32) -> f32 {
+    // Values of formulas are no distances to be compared with.
+    let near: vec2<f32> = unscaled(p, select(most, FAR, FORMULA_COUNT > 0));
     var free: f32 = near.x;
     if (FORMULA_COUNT > 0 && near.y >= 0.0) {
         if (parameters[PARTS + PART_SIZE * i32(near.y) + 10] > 0.0) {
@@ -193,7 +202,7 @@ fn openness(hit: Hit) -> f32 {
         let weight: f32 = parameters[OCCLUSION + 5 + i];
         if (weight > 0.0) {
             let height: f32 = parameters[OCCLUSION + i];
-            occluded += weight * max(height - clearance(hit.position + height * hit.normal), 0.0);
+            occluded += weight * max(height - clearance(hit.position + height * hit.normal, height), 0.0);
         }
     }
     return clamp(1.0 - occluded, 0.0, 1.0);

@@ -102,21 +102,21 @@ fn is_formula(part: f32) -> bool {
     return parameters[PARTS + PART_SIZE * i32(part) + 10] > 0.0;
 }
 
-// The first surface on a ray.
-fn trace(ray: Ray) -> Hit {
-    var plane_at: f32 = FAR;
-    var plane: i32 = -1;
-    for (var i: i32 = 0; i < PLANE_COUNT; i++) {
-        let t_plane: f32 = plane_hit(ray, PLANES + PLANE_SIZE * i);
-        if (t_plane < plane_at) {
-            plane_at = t_plane;
-            plane = i;
-        }
-    }
-    let span: vec2<f32> = clip(ray);
-    let end: f32 = min(span.y, min(plane_at, parameters[MAX_DISTANCE]));
+// What a march along a ray came to.
+struct March {
+    // Where it ended, and what it met there; -1 for nothing.
+    distance: f32,
+    part: i32,
+    steps: i32,
+    is_unresolved: bool,
+    // The gradient of the part's field there, and its value.
+    gradient: vec4<f32>,
+}
+
+// Marches along a ray through what `reach_at` knows as `parts`: all of them, or a single one.
+fn march(ray: Ray, start: f32, end: f32, parts: i32) -> March {
     let scale: f32 = parameters[SCALE];
-    var t: f32 = span.x;
+    var t: f32 = start;
     var steps: i32 = 0;
     var part: i32 = -1;
     var is_unresolved: bool = false;
@@ -136,7 +136,7 @@ fn trace(ray: Ray) -> Hit {
         var is_near: bool = false;
         loop {
             let p: vec3<f32> = ray.origin + t * ray.direction;
-            near = nearest(p);
+            near = reach_at(p, parts);
             reach = tolerance_at(t, length(p)) * share_at(near.y);
             let ball: f32 = near.x * scale * parameters[STEP_FACTOR];
             if (stride > before + max(ball, 0.0) && stride > 0.0) {
@@ -151,7 +151,7 @@ fn trace(ray: Ray) -> Hit {
             }
             before = ball;
             if (is_formula(near.y)) {
-                before = max(ball, free_ahead(p, ray.direction) * parameters[STEP_FACTOR]);
+                before = max(ball, free_at(p, ray.direction, parts) * parameters[STEP_FACTOR]);
             }
             stride = select(before, max(before, ball * RELAXATION), t + ball * RELAXATION < end);
             t += stride;
@@ -183,15 +183,30 @@ fn trace(ray: Ray) -> Hit {
         fineness = slope;
         part = -1;
     }
+    return March(t, part, steps, is_unresolved, gradient);
+}
+
+// The first surface on a ray.
+fn trace(ray: Ray) -> Hit {
+    var plane_at: f32 = FAR;
+    var plane: i32 = -1;
+    for (var i: i32 = 0; i < PLANE_COUNT; i++) {
+        let t_plane: f32 = plane_hit(ray, PLANES + PLANE_SIZE * i);
+        if (t_plane < plane_at) {
+            plane_at = t_plane;
+            plane = i;
+        }
+    }
+    let met: March = first_met(ray, min(plane_at, parameters[MAX_DISTANCE]));
     let viewer: vec3<f32> = -ray.direction;
-    if (part >= 0) {
-        let position: vec3<f32> = ray.origin + t * ray.direction;
-        let steepness: f32 = length(gradient.xyz);
-        let normal: vec3<f32> = select(viewer, gradient.xyz / max(steepness, 1e-30), steepness > 0.0);
-        let away: f32 = tolerance_at(t, length(position));
-        let slope: f32 = clamp(steepness * parameters[PARTS + PART_SIZE * part + 6], FLATTEST, 1.0);
-        let facing_normal: vec3<f32> = facing(normal, viewer, part);
-        return Hit(t, part, steps, is_unresolved, position, facing_normal, viewer, away, away, slope);
+    if (met.part >= 0) {
+        let position: vec3<f32> = ray.origin + met.distance * ray.direction;
+        let steepness: f32 = length(met.gradient.xyz);
+        let normal: vec3<f32> = select(viewer, met.gradient.xyz / max(steepness, 1e-30), steepness > 0.0);
+        let away: f32 = tolerance_at(met.distance, length(position));
+        let slope: f32 = clamp(steepness * parameters[PARTS + PART_SIZE * met.part + 6], FLATTEST, 1.0);
+        let facing_normal: vec3<f32> = facing(normal, viewer, met.part);
+        return Hit(met.distance, met.part, met.steps, met.is_unresolved, position, facing_normal, viewer, away, away, slope);
     }
     if (plane >= 0) {
         let position: vec3<f32> = ray.origin + plane_at * ray.direction;
@@ -200,7 +215,8 @@ fn trace(ray: Ray) -> Hit {
         let offset: f32 = length(position);
         let away: f32 = ROUNDING * max(offset, plane_at);
         let tolerance: f32 = tolerance_at(plane_at, offset);
-        return Hit(plane_at, number, steps, is_unresolved, position, normal, viewer, away, tolerance, 1.0 / scale);
+        let slope: f32 = 1.0 / parameters[SCALE];
+        return Hit(plane_at, number, met.steps, met.is_unresolved, position, normal, viewer, away, tolerance, slope);
     }
-    return Hit(FAR, -1, steps, is_unresolved, ray.origin, vec3<f32>(0.0), viewer, 0.0, 0.0, 1.0);
+    return Hit(FAR, -1, met.steps, met.is_unresolved, ray.origin, vec3<f32>(0.0), viewer, 0.0, 0.0, 1.0);
 }
