@@ -51,7 +51,7 @@ pub(crate) const LIGHT_SIZE: usize = 18;
 
 /// With fewer parts each of them is a line of its own in the text. Many are found through a hierarchy of boxes, and share a
 /// function with all others of the same form. In software, 20 parts are drawn faster one by one, 100 through the hierarchy.
-const FEWEST_OF_MANY: usize = 24;
+const FEWEST_OF_MANY: usize = 12;
 
 /// Places of everything whose number depends on the scene.
 #[derive(Clone, Debug)]

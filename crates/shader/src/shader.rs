@@ -39,8 +39,11 @@ const MANY: &str = include_str!("library/many.wgsl");
 const ENTRIES: [&str; 7] =
     ["sample_along", "shown_along", "camera_ray", "field_gradient", "triple", "TARGET", "SHOW_LIT"];
 
-/// What boxes of formulas are widened by, relative to their size, so that surfaces on their border lie inside.
+/// What boxes of formulas, and those that rays enter, are widened by, relative to their size, so that surfaces on their border lie inside.
 const BOX_MARGIN: f64 = 1e-3;
+
+/// Rounding errors of positions on rays, relative to the distance from the origin: eight of single precision.
+const POSITION_ERRORS: f64 = 8.0 * f32::EPSILON as f64;
 
 /// Room for lights comes in this many.
 const LIGHTS_AT_ONCE: usize = 4;
@@ -203,7 +206,10 @@ impl Shader {
             }
         }
         if self.layout.is_many() {
-            let leaf = |(part, &bounds)| Leaf { part, bounds, constants: self.parts[part].base };
+            let leaf = |(part, &bounds): (usize, &Option<Aabb>)| {
+                let bounds = bounds.map(|bounds| widened(bounds, plan.origin));
+                Leaf { part, bounds, constants: self.parts[part].base }
+            };
             let mut leaves: Vec<Leaf> = boxes.iter().enumerate().map(leaf).collect();
             write_nodes(&mut numbers, self.layout.nodes, &mut leaves, plan.origin);
             for (index, (part, form)) in self.parts.iter().zip(many::surface_kinds(&self.parts)).enumerate() {
@@ -334,6 +340,13 @@ impl Parameters {
         look(&mut self.numbers, &bare, &plan, self.origin);
         Ok(())
     }
+}
+
+/// A box that a surface on its border lies well inside of, for rays that begin where they enter it.
+fn widened(bounds: Aabb, origin: DVec3) -> Aabb {
+    let reach = (bounds.min - origin).abs().max((bounds.max - origin).abs()).max_element();
+    let margin = BOX_MARGIN * bounds.size().max_element() + POSITION_ERRORS * reach;
+    Aabb { min: bounds.min - margin, max: bounds.max + margin }
 }
 
 /// How many lights the table has room for in a scene that has some: so many that one more hardly ever needs another text.
