@@ -41,7 +41,15 @@ pub(crate) fn items(parts: &[Part], kinds: &[usize], layout: &Layout, mut helper
     let nearest = nearest(parts, &names, &values, layout);
     let unscaled = unscaled(parts, &names, &values, layout, has_steps);
     let free_ahead = free_ahead(parts, &names, &values, &gradients, kinds, layout);
-    let last = [nearest, free_ahead, unscaled, whole(layout.plane_count), part_gradient(&gradients), whole_gradient(), surfaces];
+    let last = [
+        nearest,
+        free_ahead,
+        unscaled,
+        whole(layout.plane_count),
+        part_gradient(&gradients),
+        whole_gradient(),
+        surfaces,
+    ];
     helpers.functions.into_iter().chain(own).chain(last).map(Item::Function).collect()
 }
 

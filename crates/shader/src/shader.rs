@@ -113,7 +113,8 @@ impl Shader {
 
         let mut names = Names::new();
         let walks = if layout.is_many() { MANY } else { FEW };
-        let library: Vec<Item> = LIBRARY.iter().chain(&[walks]).flat_map(|text| parse(text).expect("the library is sound")).collect();
+        let library: Vec<Item> =
+            LIBRARY.iter().chain(&[walks]).flat_map(|text| parse(text).expect("the library is sound")).collect();
         library.iter().for_each(|item| names.take(item.name()));
         ["nearest", "free_ahead", "unscaled", "whole", "part_gradient", "field_gradient", "surface_at", "part_value"]
             .iter()
