@@ -116,9 +116,19 @@ impl Shader {
         let library: Vec<Item> =
             LIBRARY.iter().chain(&[walks]).flat_map(|text| parse(text).expect("the library is sound")).collect();
         library.iter().for_each(|item| names.take(item.name()));
-        ["nearest", "free_ahead", "unscaled", "whole", "part_gradient", "field_gradient", "surface_at", "part_value"]
-            .iter()
-            .for_each(|name| names.take(name));
+        [
+            "nearest",
+            "free_ahead",
+            "unscaled",
+            "whole",
+            "part_gradient",
+            "field_gradient",
+            "surface_at",
+            "part_value",
+            "quad",
+        ]
+        .iter()
+        .for_each(|name| names.take(name));
         let mut all = layout.items();
         all.extend(library);
         let kinds = scene::kinds(&parts);
@@ -135,6 +145,11 @@ impl Shader {
     /// What all targets share: everything but the declarations of parameters and view, and the entry points.
     pub fn items(&self) -> &[Item] {
         &self.items
+    }
+
+    /// Whether parts are found through a hierarchy in the table, so that most places in it are computed.
+    pub(crate) fn is_many(&self) -> bool {
+        self.layout.is_many()
     }
 
     /// How many parts are marched.

@@ -84,7 +84,8 @@ impl Shader {
         let _ = write!(
             text,
             "@group(0) @binding(0) var<{space}> parameters: array<vec4<f32>, {vectors}>;\n\n\
-             fn parameter(place: i32) -> f32 {{\n    return parameters[place >> 2u][place & 3];\n}}\n\n"
+             fn parameter(place: i32) -> f32 {{\n    return parameters[place >> 2u][place & 3];\n}}\n\n\
+             fn quad(place: i32) -> vec4<f32> {{\n    return parameters[place >> 2u];\n}}\n\n"
         );
         text.push_str(&wgsl::items(self.items()));
         text.push_str(shell);
@@ -95,7 +96,8 @@ impl Shader {
         let count = parameters.numbers().len().div_ceil(4);
         let table = match count {
             0..=MOST_UNIFORMS => Table::Vectors,
-            _ if count <= MOST_BLOCKS * BLOCK_VECTORS => Table::Blocks,
+            // Drivers take minutes for computed places in several blocks, which walks through many parts are full of.
+            _ if count <= MOST_BLOCKS * BLOCK_VECTORS && !self.is_many() => Table::Blocks,
             _ => Table::Texture,
         };
         let mut text = String::from("#version 300 es\nprecision highp float;\nprecision highp int;\n\n");
@@ -117,6 +119,7 @@ impl Shader {
             let _ = writeln!(text, "    {}{end}", line.join(", "));
         }
         text.push_str(");\n\n");
+        text.push_str(SHADERTOY_QUAD);
         text.push_str(GLSL_VIEW);
         text.push_str("View view;\n\n");
         text.push_str(&glsl::items(self.items(), Table::Numbers));
@@ -153,7 +156,8 @@ impl Shader {
 fn webgl_table(table: Table, count: usize) -> String {
     match table {
         Table::Numbers | Table::Vectors => format!(
-            "uniform vec4 parameters[{count}];\n\nfloat parameter(int place) {{\n    return parameters[place >> 2][place & 3];\n}}\n\n"
+            "uniform vec4 parameters[{count}];\n\nfloat parameter(int place) {{\n    return parameters[place >> 2][place & 3];\n}}\n\n\
+             vec4 quad(int place) {{\n    return parameters[place >> 2];\n}}\n\n"
         ),
         Table::Blocks => {
             // Blocks are told apart by literals only.
@@ -174,8 +178,10 @@ fn webgl_table(table: Table, count: usize) -> String {
             text + "}\n\n"
         }
         Table::Texture => format!(
-            "precision highp sampler2D;\nuniform sampler2D parameters;\n\nfloat parameter(int place) {{\n    int texel = place >> 2;\n    \
-             return texelFetch(parameters, ivec2(texel % {TEXTURE_WIDTH}, texel / {TEXTURE_WIDTH}), 0)[place & 3];\n}}\n\n"
+            "precision highp sampler2D;\nuniform sampler2D parameters;\n\n\
+             vec4 quad(int place) {{\n    int texel = place >> 2;\n    \
+             return texelFetch(parameters, ivec2(texel % {TEXTURE_WIDTH}, texel / {TEXTURE_WIDTH}), 0);\n}}\n\n\
+             float parameter(int place) {{\n    return quad(place)[place & 3];\n}}\n\n"
         ),
     }
 }
@@ -199,4 +205,10 @@ const UNITY_TAIL: &str = include_str!("shells/unity_tail.hlsl");
 const GLSL_VIEW: &str = include_str!("shells/view.glsl");
 const WEBGL_SHELL: &str = include_str!("shells/webgl.glsl");
 const SHADERTOY_HEAD: &str = include_str!("shells/shadertoy_head.glsl");
+const SHADERTOY_QUAD: &str = "\
+vec4 quad(int place) {
+    return vec4(parameters[place], parameters[place + 1], parameters[place + 2], parameters[place + 3]);
+}
+
+";
 const SHADERTOY_SHELL: &str = include_str!("shells/shadertoy.glsl");

@@ -39,8 +39,11 @@ const SCENES: [&str; 10] = [
     "shapes/quaternion_julia",
 ];
 
-/// Objects of the large scene: too many for single uniforms.
+/// Objects of the large scene: so many that they are found by walks through a table.
 const MANY: usize = 100;
+
+/// Operands of the large blend, whose numbers are too many for single uniforms.
+const BLENDED: usize = 60;
 
 /// Lights of the scene that is too large even for blocks of uniforms.
 const MANY_LIGHTS: usize = 3000;
@@ -116,6 +119,17 @@ fn many() -> Scene {
     scene(&text, "many objects")
 }
 
+/// A single object with many numbers.
+fn blend() -> Scene {
+    let mut shapes = Vec::new();
+    for index in 0..BLENDED {
+        let (x, y) = ((index % 10) as f64 * 0.2 - 0.9, (index / 10) as f64 * 0.3 - 0.75);
+        let shape = format!(r#"{{ "box": {{ "size": [0.15, 0.2, {}], "round": 0.02 }} }}"#, 0.1 + 0.02 * index as f64);
+        shapes.push(format!(r#"{{ "translate": {{ "by": [{x}, {y}, 0], "shape": {shape} }} }}"#));
+    }
+    scene_of(&format!(r#"{{ "smooth_union": {{ "k": 0.1, "shapes": [{}] }} }}"#, shapes.join(", ")))
+}
+
 /// A scene whose lights have so many numbers that no blocks of uniforms hold them. All but one are dark.
 fn many_lights() -> Scene {
     let mut scene = scene_of(r#"{ "box": { "size": [1.2, 1, 0.8] } }"#);
@@ -186,6 +200,7 @@ fn browsers_draw_what_the_processor_draws() {
     let file = |name: &str| read(&folder.join(name).with_extension("json"));
     let mut all: Vec<Job> = SCENES.iter().flat_map(|name| jobs(name, file(name))).collect();
     all.extend(jobs("many", many()));
+    all.extend(jobs("blend", blend()));
     // As a constant in a text, that many numbers are of no use.
     all.extend(jobs("lights", many_lights()).into_iter().filter(|job| job.target == Target::Glsl));
     // To the middle, which is where the camera is; and a quarter turn.
@@ -205,5 +220,8 @@ fn browsers_draw_what_the_processor_draws() {
     }
     assert!(faults.is_empty(), "{} pictures differ:\n{}", faults.len(), faults.join("\n"));
     let way = |name: &str| said[name].split('\t').next().expect("a word").to_owned();
-    assert_eq!(["shapes-sheet-webgl", "many-webgl", "lights-webgl"].map(way), ["uniforms", "blocks", "texture"]);
+    assert_eq!(
+        ["shapes-sheet-webgl", "blend-webgl", "many-webgl", "lights-webgl"].map(way),
+        ["uniforms", "blocks", "texture", "texture"]
+    );
 }

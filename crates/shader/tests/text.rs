@@ -132,7 +132,8 @@ fn vulkan_glsl(shader: &Shader) -> String {
         layout(set = 0, binding = 1) uniform Views { View view; };\n\
         layout(location = 0) in vec2 raster;\n\
         layout(location = 0) out vec4 color;\n\
-        float parameter(int place) { return parameters[place >> 2][place & 3]; }\n";
+        float parameter(int place) { return parameters[place >> 2][place & 3]; }\n\
+        vec4 quad(int place) { return parameters[place >> 2]; }\n";
     let tail = "void main() { color = vec4(shown_along(camera_ray(raster)), 1.0); }\n";
     format!("{head}{}{tail}", glsl::items(shader.items(), Table::Vectors))
 }

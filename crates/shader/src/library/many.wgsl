@@ -1,3 +1,8 @@
+// The distance of a point from the box that two quads begin with: its middle and half its edges.
+fn apart_of(p: vec3<f32>, a: vec4<f32>, b: vec4<f32>) -> f32 {
+    return length(max(abs(p - a.xyz) - vec3<f32>(a.w, b.x, b.y), vec3<f32>(0.0)));
+}
+
 // The node of the part at which the way down ends that always takes the nearer of two boxes: a first guess of the nearest.
 fn guess(p: vec3<f32>) -> i32 {
     var node: i32 = NODES;
@@ -6,12 +11,11 @@ fn guess(p: vec3<f32>) -> i32 {
             break;
         }
         let left: i32 = node + NODE_SIZE;
+        let b: vec4<f32> = quad(left + 4);
         // A leaf is one node long; what else there is knows its end.
-        var right: i32 = left + NODE_SIZE;
-        if (parameters[left + 7] < 0.0) {
-            right = i32(parameters[left + 6]);
-        }
-        node = select(left, right, apart(p, right) < apart(p, left));
+        let right: i32 = select(left + NODE_SIZE, i32(b.z), b.w < 0.0);
+        let is_right: bool = apart_of(p, quad(right), quad(right + 4)) < apart_of(p, quad(left), b);
+        node = select(left, right, is_right);
     }
     return node;
 }
@@ -23,15 +27,16 @@ fn leaf_from(first: i32, p: vec3<f32>, distance_so_far: f32) -> i32 {
         if (node >= NODES_END) {
             break;
         }
-        let is_leaf: bool = parameters[node + 7] >= 0.0;
-        let is_near: bool = apart(p, node) < distance_so_far;
+        let b: vec4<f32> = quad(node + 4);
+        let is_leaf: bool = b.w >= 0.0;
+        let is_near: bool = apart_of(p, quad(node), b) < distance_so_far;
         if (is_near && is_leaf) {
             break;
         }
         if (is_near || is_leaf) {
             node += NODE_SIZE;
         } else {
-            node = i32(parameters[node + 6]);
+            node = i32(b.z);
         }
     }
     return node;
@@ -44,8 +49,9 @@ fn leaf_on(first: i32, ray: Ray, inverse: vec3<f32>, end: f32) -> i32 {
         if (node >= NODES_END) {
             break;
         }
-        let is_leaf: bool = parameters[node + 7] >= 0.0;
-        let span: vec2<f32> = span_in(ray, inverse, node);
+        let b: vec4<f32> = quad(node + 4);
+        let is_leaf: bool = b.w >= 0.0;
+        let span: vec2<f32> = span_in(ray, inverse, quad(node), b);
         let is_met: bool = span.x <= min(span.y, end);
         if (is_met && is_leaf) {
             break;
@@ -53,19 +59,24 @@ fn leaf_on(first: i32, ray: Ray, inverse: vec3<f32>, end: f32) -> i32 {
         if (is_met || is_leaf) {
             node += NODE_SIZE;
         } else {
-            node = i32(parameters[node + 6]);
+            node = i32(b.z);
         }
     }
     return node;
 }
 
-// The part of a ray inside a box, given by its middle and half its edges; nothing if the end comes before the beginning.
-fn span_in(ray: Ray, inverse: vec3<f32>, first: i32) -> vec2<f32> {
-    let middle: vec3<f32> = (triple(first) - ray.origin) * inverse;
-    let half: vec3<f32> = triple(first + 3) * abs(inverse);
+// The part of a ray inside the box that two quads begin with; nothing if the end comes before the beginning.
+fn span_in(ray: Ray, inverse: vec3<f32>, a: vec4<f32>, b: vec4<f32>) -> vec2<f32> {
+    let middle: vec3<f32> = (a.xyz - ray.origin) * inverse;
+    let half: vec3<f32> = vec3<f32>(a.w, b.x, b.y) * abs(inverse);
     let near: vec3<f32> = middle - half;
     let far: vec3<f32> = middle + half;
     return vec2<f32>(max(max(max(near.x, near.y), near.z), 0.0), min(min(far.x, far.y), far.z));
+}
+
+// The part of a ray that the box which two quads begin with may dim.
+fn penumbra_of(ray: Ray, a: vec4<f32>, b: vec4<f32>, sharpness: f32) -> vec2<f32> {
+    return penumbra(ray, a.xyz, length(vec3<f32>(a.w, b.x, b.y)), sharpness);
 }
 
 // The first node from one on that holds a part, or the end of all nodes: a walk by what a ray comes near to before it ends.
@@ -75,8 +86,9 @@ fn leaf_around(first: i32, ray: Ray, end: f32, sharpness: f32) -> i32 {
         if (node >= NODES_END) {
             break;
         }
-        let is_leaf: bool = parameters[node + 7] >= 0.0;
-        let span: vec2<f32> = penumbra(ray, triple(node), length(triple(node + 3)), sharpness);
+        let b: vec4<f32> = quad(node + 4);
+        let is_leaf: bool = b.w >= 0.0;
+        let span: vec2<f32> = penumbra_of(ray, quad(node), b, sharpness);
         let is_met: bool = span.x <= min(span.y, end);
         if (is_met && is_leaf) {
             break;
@@ -84,7 +96,7 @@ fn leaf_around(first: i32, ray: Ray, end: f32, sharpness: f32) -> i32 {
         if (is_met || is_leaf) {
             node += NODE_SIZE;
         } else {
-            node = i32(parameters[node + 6]);
+            node = i32(b.z);
         }
     }
     return node;
@@ -129,9 +141,10 @@ fn first_met(ray: Ray, end: f32) -> March {
         if (node >= NODES_END) {
             break;
         }
-        let span: vec2<f32> = span_in(ray, inverse, node);
+        let b: vec4<f32> = quad(node + 4);
+        let span: vec2<f32> = span_in(ray, inverse, quad(node), b);
         let steps: i32 = met.steps;
-        let one: March = march(ray, span.x, min(span.y, met.distance), i32(parameters[node + 7]));
+        let one: March = march(ray, span.x, min(span.y, met.distance), i32(b.w));
         if (one.part >= 0 || one.is_unresolved) {
             met = one;
         }
@@ -156,13 +169,13 @@ fn light_past(ray: Ray, end: f32, shade_of: Shade) -> f32 {
         if (node >= NODES_END) {
             break;
         }
-        var span: vec2<f32> = vec2<f32>(0.0);
+        let a: vec4<f32> = quad(node);
+        let b: vec4<f32> = quad(node + 4);
+        var span: vec2<f32> = span_in(ray, inverse, a, b);
         if (shade_of.is_soft) {
-            span = penumbra(ray, triple(node), length(triple(node + 3)), sharpness);
-        } else {
-            span = span_in(ray, inverse, node);
+            span = penumbra_of(ray, a, b, sharpness);
         }
-        factor = min(factor, light_along(ray, span.x, min(span.y, end), shade_of, i32(parameters[node + 7])));
+        factor = min(factor, light_along(ray, span.x, min(span.y, end), shade_of, i32(b.w)));
         if (factor == 0.0) {
             break;
         }
@@ -173,8 +186,8 @@ fn light_past(ray: Ray, end: f32, shade_of: Shade) -> f32 {
 
 // The nearer of what is so far and the part of a node, by the values of the field.
 fn value_of(node: i32, p: vec3<f32>, so_far: vec2<f32>) -> vec2<f32> {
-    let part: i32 = i32(parameters[node + 7]);
-    return closer(so_far, part_value(part, i32(parameters[node + 6]), p), f32(part));
+    let b: vec4<f32> = quad(node + 4);
+    return closer(so_far, part_value(i32(b.w), i32(b.z), p), b.w);
 }
 
 // The field of all parts at a point where it is less than `most`, and the part that it belongs to.

@@ -237,6 +237,12 @@ impl<'s> Machine<'s> {
                 let values: Vec<Value> = parts.iter().map(|part| self.expr(part, scope)).collect();
                 match self.functions.contains_key(name.as_str()) {
                     true => self.call(name, values),
+                    // Four parameters as a vector, which shells define by their table.
+                    false if name == "quad" => {
+                        let place = values[0].int() as usize;
+                        assert_eq!(place % 4, 0, "quads are aligned");
+                        Vector(self.parameters[place..place + 4].to_vec())
+                    }
                     false => builtin(name, &values),
                 }
             }
