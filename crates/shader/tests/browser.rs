@@ -43,7 +43,7 @@ const SCENES: [&str; 10] = [
 const MANY: usize = 100;
 
 /// Operands of the large blend, whose numbers are too many for single uniforms.
-const BLENDED: usize = 60;
+const BLENDED: usize = 100;
 
 /// Lights of the scene that is too large even for blocks of uniforms.
 const MANY_LIGHTS: usize = 3000;
@@ -123,8 +123,8 @@ fn many() -> Scene {
 fn blend() -> Scene {
     let mut shapes = Vec::new();
     for index in 0..BLENDED {
-        let (x, y) = ((index % 10) as f64 * 0.2 - 0.9, (index / 10) as f64 * 0.3 - 0.75);
-        let shape = format!(r#"{{ "box": {{ "size": [0.15, 0.2, {}], "round": 0.02 }} }}"#, 0.1 + 0.02 * index as f64);
+        let (x, y) = ((index % 10) as f64 * 0.2 - 0.9, (index / 10) as f64 * 0.2 - 0.9);
+        let shape = format!(r#"{{ "box": {{ "size": [0.3, 0.3, {}], "round": 0.1 }} }}"#, 0.3 + 0.01 * index as f64);
         shapes.push(format!(r#"{{ "translate": {{ "by": [{x}, {y}, 0], "shape": {shape} }} }}"#));
     }
     scene_of(&format!(r#"{{ "smooth_union": {{ "k": 0.1, "shapes": [{}] }} }}"#, shapes.join(", ")))
