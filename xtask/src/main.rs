@@ -1,7 +1,9 @@
 //! The project's own chores: `cargo xtask help` lists them.
 
 mod browser;
+mod compilers;
 mod gallery;
+mod install;
 mod probe;
 mod run;
 mod shapes;
@@ -12,13 +14,14 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: cargo xtask COMMAND
 
-  test          everything a change must pass; installs what it needs and says so
-  test-gpu      the part of it that needs a graphics processor, or software that stands in for one
-  test-browser  the part of it that needs a browser
-  shapes        writes the list of shapes from the files under crates/field/src/shapes
-  schema        writes schema/scene.schema.json
-  gallery       renders all scenes and contact sheets into gallery/
-  probe-shape   proves that a new shape needs one file and nothing else
+  test            everything a change must pass; installs what it needs and says so
+  test-gpu        the part of it that needs a graphics processor, or software that stands in for one
+  test-browser    the part of it that needs a browser
+  test-compilers  the part of it that needs compilers of shaders
+  shapes          writes the list of shapes from the files under crates/field/src/shapes
+  schema          writes schema/scene.schema.json
+  gallery         renders all scenes and contact sheets into gallery/
+  probe-shape     proves that a new shape needs one file and nothing else
 ";
 
 fn main() -> ExitCode {
@@ -27,6 +30,7 @@ fn main() -> ExitCode {
         ["test"] => test::all(),
         ["test-gpu"] => test::on_graphics_processor(),
         ["test-browser"] => browser::test(),
+        ["test-compilers"] => compilers::test(),
         ["shapes"] => shapes::write(&run::root()),
         ["schema"] => run::schema(&run::root()),
         ["gallery"] => gallery::gallery(),

@@ -1,7 +1,8 @@
 //! Everything a change must pass.
 
+use crate::install::{install, runs};
 use crate::run::{Result, SCHEMA, output, root, run, run_with};
-use crate::{browser, probe, shapes};
+use crate::{browser, compilers, probe, shapes};
 use std::process::Command;
 
 /// Runs all checks, the quick ones first.
@@ -24,6 +25,7 @@ pub(crate) fn all() -> Result {
     )?;
     probe::shape()?;
     on_graphics_processor()?;
+    compilers::test()?;
     browser::test()?;
     install_deny()?;
     run(&root, "cargo", &["deny", "--log-level", "error", "check", "licenses", "bans", "sources"])?;
@@ -53,15 +55,13 @@ fn install_graphics_software() -> Result {
     let drivers = ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d"];
     let has_driver =
         drivers.iter().any(|folder| std::fs::read_dir(folder).is_ok_and(|mut files| files.next().is_some()));
-    if has_driver || !cfg!(target_os = "linux") || Command::new("apt-get").arg("--version").output().is_err() {
+    if has_driver || !cfg!(target_os = "linux") || !runs("apt-get") {
         return Ok(());
     }
-    eprintln!("xtask: installing the package {GPU_SOFTWARE}, which stands in for a graphics processor");
-    // Without lists of packages nothing can be installed; if they can't be brought up to date, old ones may do.
-    let _ = run(&root(), "apt-get", &["update", "-q"]);
-    let install = ["install", "-y", "-q", GPU_SOFTWARE];
-    run(&root(), "apt-get", &install)
-        .map_err(|error| format!("{error}; the tests of graphics processors need this package, or a driver for Vulkan"))
+    install(
+        &[GPU_SOFTWARE],
+        "the tests of graphics processors need software that stands in for one, or a driver for Vulkan",
+    )
 }
 
 fn schema_is_fresh() -> Result {
