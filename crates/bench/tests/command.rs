@@ -1,7 +1,7 @@
 //! The benchmark's command, as a user meets it.
 
 use freikugel::field::Kind as ShapeKind;
-use freikugel_bench::scattered::{Kind, scene};
+use freikugel_bench::scattered::{Kind, Light, scene};
 use std::process::{Command, Output};
 
 fn run(args: &[&str]) -> Output {
@@ -48,18 +48,20 @@ fn the_growth_table_measures_in_a_process_of_its_own() {
 #[test]
 fn scenes_of_many_primitives_are_sound_and_always_the_same() {
     for kind in [Kind::Boxes, Kind::Spheres, Kind::Mixed] {
-        for blend in [None, Some(0.05)] {
-            let text = scene(50, kind, blend);
-            assert_eq!(text, scene(50, kind, blend));
+        for (blend, light) in [(None, Light::Ambient), (Some(0.05), Light::Ambient), (None, Light::Sun)] {
+            let text = scene(50, kind, blend, light);
+            assert_eq!(text, scene(50, kind, blend, light));
             let scene = freikugel::scene::read(&text).into_result().expect("a sound scene");
             let primitives: usize = scene
                 .objects
                 .iter()
                 .map(|object| freikugel::field::analyse(&object.shape).0.expect("sound").primitives)
                 .sum();
-            assert_eq!(primitives, 50);
+            // The floor is one more.
+            let floors = usize::from(light == Light::Sun);
+            assert_eq!(primitives, 50 + floors);
             match blend {
-                None => assert_eq!(scene.objects.len(), 50),
+                None => assert_eq!(scene.objects.len(), 50 + floors),
                 Some(_) => {
                     let node = scene.objects[0].shape.node();
                     assert!(matches!(node.shape.kind, ShapeKind::Combine(_)));
@@ -68,9 +70,9 @@ fn scenes_of_many_primitives_are_sound_and_always_the_same() {
             }
         }
     }
-    assert_ne!(scene(50, Kind::Boxes, None), scene(51, Kind::Boxes, None));
+    assert_ne!(scene(50, Kind::Boxes, None, Light::Ambient), scene(51, Kind::Boxes, None, Light::Ambient));
     let output = run(&["scene", "50", "--kind", "mixed", "--blend", "0.05"]);
-    assert_eq!(stdout(&output), scene(50, Kind::Mixed, Some(0.05)));
+    assert_eq!(stdout(&output), scene(50, Kind::Mixed, Some(0.05), Light::Ambient));
     assert!(!run(&["scene", "0"]).status.success());
     assert!(!run(&["scene", "5", "--blend", "-1"]).status.success());
 }

@@ -155,10 +155,9 @@ mod tests {
                 let (middle, half) = (DVec3::from(middle), DVec3::from(half));
                 Aabb { min: middle - half, max: middle + half }
             };
-            let leaf = |(part, given): (usize, Option<([f64; 3], [f64; 3])>)| {
-                Leaf { part, bounds: given.map(bounds), constants: 7 * part }
-            };
-            let mut leaves: Vec<Leaf> = boxes.into_iter().enumerate().map(leaf).collect();
+            let boxes = boxes.into_iter().map(|given| given.map(bounds)).enumerate();
+            let mut leaves: Vec<Leaf> =
+                boxes.map(|(part, bounds)| Leaf { part, bounds, constants: 7 * part }).collect();
             let given = leaves.clone();
             let mut table = vec![0.0; FIRST + NODE_SIZE * node_count(leaves.len())];
             write_nodes(&mut table, FIRST, &mut leaves, DVec3::ZERO);

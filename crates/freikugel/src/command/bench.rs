@@ -208,5 +208,5 @@ fn on_cpu(
         renderer.render(&options, watch).map_err(cannot_render)?;
         Ok(start.elapsed())
     })?;
-    Ok(Row::new(name, by, prepared, None, measured))
+    Ok(Row::new(name, by, prepared, None, &measured))
 }

@@ -64,7 +64,7 @@ mod with {
                 time.map_err(failure)
             })?;
             let creation = frames.creation();
-            Ok(Row::new(name, &self.gpu.summary().name, creation.text, Some(creation.pipelines), measured))
+            Ok(Row::new(name, &self.gpu.summary().name, creation.text, Some(creation.pipelines), &measured))
         }
     }
 

@@ -64,7 +64,7 @@ impl Row {
         by: &str,
         prepared: Duration,
         pipelines: Option<Duration>,
-        measured: Measured,
+        measured: &Measured,
     ) -> Self {
         // A clock may be too coarse for a frame.
         let seconds = measured.seconds.iter().map(|seconds| seconds.max(1e-9));
@@ -140,7 +140,7 @@ mod tests {
     fn rates_are_those_of_single_frames() {
         let measured =
             Measured { first: Duration::from_secs(1), seconds: vec![0.01, 0.02, 0.03, 0.04], processor: Some(0.05) };
-        let row = Row::new("ball", "us", Duration::from_millis(5), Some(Duration::from_millis(7)), measured);
+        let row = Row::new("ball", "us", Duration::from_millis(5), Some(Duration::from_millis(7)), &measured);
         assert_eq!((row.rates.min, row.rates.max), (25.0, 100.0));
         assert!((row.rates.mean - (100.0 + 50.0 + 100.0 / 3.0 + 25.0) / 4.0).abs() < 1e-9);
         assert!((row.milliseconds.mean - 25.0).abs() < 1e-9);
