@@ -4,12 +4,12 @@
 //! directions, the farthest a point of the shape can lie. A direction passes through affine maps exactly, so a rotated
 //! torus gets its true box and not the box of a rotated box.
 
-use crate::contract::{Aabb, Contract, Extent};
+use crate::contract::{Aabb, Contract, Dimension, Extent};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::field::{Field, Node};
 use crate::shape::{Arity, Hull, Kind};
-use crate::shapes::{displace, formula, twist, warp};
-use glam::{DMat3, DVec3};
+use crate::shapes::{displace, extrude, formula, twist, warp};
+use glam::{DAffine3, DMat3, DVec3};
 
 /// The deepest nesting a field may have; deeper ones would exhaust the stack of a small thread.
 pub const MAX_DEPTH: u32 = 512;
@@ -45,6 +45,25 @@ pub fn analyse(field: &Field) -> (Option<Analysis>, Vec<Diagnostic>) {
     (analysis, walk.diagnostics)
 }
 
+/// As [`analyse`], for what is to be a body by itself: a plane figure is an error.
+pub fn analyse_body(field: &Field) -> (Option<Analysis>, Vec<Diagnostic>) {
+    let (analysis, mut diagnostics) = analyse(field);
+    match analysis {
+        Some(analysis) if analysis.contract.dimension == Dimension::Plane => {
+            let node = field.node();
+            diagnostics.push(Diagnostic {
+                severity: Severity::Error,
+                message: format!("`{}` makes a plane figure, which has no height", node.shape.about.name),
+                hint: Some("make a body of it, with `extrude` or `revolve`".into()),
+                origin: node.origin,
+                param: None,
+            });
+            (None, diagnostics)
+        }
+        analysis => (analysis, diagnostics),
+    }
+}
+
 #[derive(Default)]
 struct Walk {
     diagnostics: Vec<Diagnostic>,
@@ -59,6 +78,14 @@ impl Walk {
 
     fn error(&mut self, node: &Node, param: Option<usize>, message: String) -> Option<Contract> {
         self.report(node, Severity::Error, param, message, None);
+        None
+    }
+
+    /// Reports that a plane figure stands where only a body can.
+    fn no_body(&mut self, node: &Node) -> Option<Contract> {
+        let message = format!("`{}` takes a body, not a plane figure", node.shape.about.name);
+        let hint = Some("make a body of it first, with `extrude` or `revolve`".into());
+        self.report(node, Severity::Error, None, message, hint);
         None
     }
 
@@ -92,9 +119,16 @@ impl Walk {
                 if let Err(fault) = (table.check)(&args) {
                     return self.error(node, None, fault);
                 }
-                Some((table.contract)(&args))
+                Some(Contract { dimension: table.dimension, ..(table.contract)(&args) })
             }
             Kind::Combine(table) => {
+                let dimensions: Vec<Dimension> = children.iter().flatten().map(|child| child.dimension).collect();
+                if dimensions.windows(2).any(|pair| pair[0] != pair[1]) {
+                    let hint = Some("make bodies of figures first, with `extrude` or `revolve`".into());
+                    let message = format!("`{name}` takes either plane figures or bodies, not both");
+                    self.report(node, Severity::Error, None, message, hint);
+                    return None;
+                }
                 let mut children = children.into_iter();
                 let mut contract = children.next().flatten();
                 for child in children {
@@ -110,6 +144,12 @@ impl Walk {
             }
             Kind::Place(table) => {
                 let child = children[0]?;
+                if child.dimension == Dimension::Plane && !keeps_plane(&(table.map)(&args)) {
+                    let message = format!("`{name}` takes a plane figure out of its plane");
+                    let hint = Some("make a body of it first, with `extrude` or `revolve`".into());
+                    self.report(node, Severity::Error, None, message, hint);
+                    return None;
+                }
                 Some(if (table.is_similarity)(&args) { child } else { child.at_most_bound() })
             }
             Kind::Modify(table) => {
@@ -118,11 +158,42 @@ impl Walk {
                     self.report(node, Severity::Warning, None, doubt, None);
                 }
                 match (table.contract)(&args, child) {
-                    Ok(contract) => Some(contract),
+                    Ok(contract) => Some(Contract { dimension: child.dimension, ..contract }),
+                    Err(fault) => self.error(node, None, fault),
+                }
+            }
+            Kind::Map(table) => {
+                let child = children[0]?;
+                let is_plane = child.dimension == Dimension::Plane;
+                if table.takes == Dimension::Plane && !is_plane {
+                    return self.error(node, None, format!("`{name}` takes a plane figure, not a body"));
+                }
+                if table.takes == Dimension::Space && is_plane && !table.is_planar {
+                    return self.no_body(node);
+                }
+                let reach = |direction: DVec3| support(&node.children[0], direction, 0.0);
+                match (table.contract)(&args, child, &reach) {
+                    Ok(contract) => {
+                        let dimension = if table.is_planar { child.dimension } else { Dimension::Space };
+                        Some(Contract { dimension, ..contract })
+                    }
+                    Err(fault) => self.error(node, None, fault),
+                }
+            }
+            Kind::Extrude(table) => {
+                let child = children[0]?;
+                if child.dimension != Dimension::Plane {
+                    return self.error(node, None, format!("`{name}` takes a plane figure, not a body"));
+                }
+                match (table.contract)(&args, child, Contract::EXACT) {
+                    Ok(contract) => Some(Contract { dimension: Dimension::Space, ..contract }),
                     Err(fault) => self.error(node, None, fault),
                 }
             }
             Kind::Paint => children[0],
+            Kind::Warp | Kind::Twist | Kind::Displace if children[0]?.dimension == Dimension::Plane => {
+                self.no_body(node)
+            }
             Kind::Formula => {
                 self.primitives += 1;
                 Some(formula::contract(node, &args))
@@ -239,6 +310,13 @@ pub(crate) fn support(field: &Field, direction: DVec3, level: f64) -> f64 {
             let within = map.matrix3.transpose() * direction;
             support(&node.children[0], within, level / (table.factor)(&args)) + direction.dot(map.translation)
         }
+        Kind::Map(table) => {
+            (table.support)(&args, direction, &|direction| support(&node.children[0], direction, level))
+        }
+        Kind::Extrude(_) => {
+            let figure = |direction, level| support(&node.children[0], direction, level);
+            extrude::support(&args, direction, level, figure)
+        }
         Kind::Modify(table) => match (table.level)(&args, level) {
             Some(level) => support(&node.children[0], direction, level),
             None => f64::INFINITY,
@@ -252,6 +330,17 @@ pub(crate) fn support(field: &Field, direction: DVec3, level: f64) -> f64 {
         Kind::Twist => twist::support(node, direction, level),
         Kind::Displace => support(&node.children[0], direction, level + displace::depth(node)),
     }
+}
+
+/// Whether a map takes the plane of x and y to itself.
+fn keeps_plane(map: &DAffine3) -> bool {
+    // Turns by multiples of a right angle leave rounding errors.
+    const NOTHING: f64 = 1e-12;
+    let m = map.matrix3;
+    [m.x_axis.z, m.y_axis.z, map.translation.z]
+        .into_iter()
+        .all(|leak| leak.abs() <= NOTHING * m.z_axis.z.abs().max(1.0))
+        && m.z_axis.x.abs().max(m.z_axis.y.abs()) <= NOTHING
 }
 
 /// The rotation that takes a shape along z to one along `axis`, a cyclic exchange of axes.

@@ -4,7 +4,8 @@ use crate::evaluator::Points;
 use crate::formula::Binary;
 use crate::formula_kernel::{self, BinaryJob, FormulaKernels, Source, UnaryJob};
 use crate::kernel::{
-    AffineJob, BATCH, Block, CombineJob, CombineKernels, ModifyJob, ModifyKernels, PrimitiveJob, WIDEST,
+    AffineJob, BATCH, Block, CombineJob, CombineKernels, MapJob, MapKernels, ModifyJob, ModifyKernels, PrimitiveJob,
+    WIDEST,
 };
 use crate::lower::{Listing, Op, Operand};
 use crate::program::Program;
@@ -24,6 +25,7 @@ pub(crate) trait Number: Sized {
     fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>);
     fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>);
     fn affine(level: Level, job: &mut AffineJob<'_>);
+    fn map(kernels: &MapKernels) -> fn(Level, &mut MapJob<'_>);
 
     /// The operations of formulas.
     const FORMULA: FormulaKernels;
@@ -107,6 +109,16 @@ impl<N: Number> Bank<N> {
                     .get_disjoint_mut([from * size..(from + 1) * size, to * size..(to + 1) * size])
                     .expect(NOT_IN_PLACE);
                 N::affine(level, &mut AffineJob { from, constants, to, count });
+            }
+            Op::Map { table, from, at, constants: run, to } => {
+                let size = 3 * N::COMPONENTS;
+                let (at, constants) = (&constants[at.range()], &constants[run.range()]);
+                let [from, point] = self
+                    .points
+                    .get_disjoint_mut([from * size..(from + 1) * size, to * size..(to + 1) * size])
+                    .expect(NOT_IN_PLACE);
+                N::map(&table.kernels)(level, &mut MapJob { from, at, constants, to: point, count });
+                self.reach[to] = N::reach_of(point, count);
             }
             Op::Primitive { table, point, at, constants: run, slope, before, out } => {
                 let size = 3 * N::COMPONENTS;
@@ -240,6 +252,9 @@ macro_rules! at_points {
             fn affine(level: Level, job: &mut AffineJob<'_>) {
                 crate::kernel::$affine(level, job);
             }
+            fn map(kernels: &MapKernels) -> fn(Level, &mut MapJob<'_>) {
+                kernels.$kernel
+            }
         }
 
         impl Bank<$Number> {
@@ -320,6 +335,9 @@ impl Number for Ranges {
     fn affine(level: Level, job: &mut AffineJob<'_>) {
         crate::kernel::affine_ranges(level, job);
     }
+    fn map(kernels: &MapKernels) -> fn(Level, &mut MapJob<'_>) {
+        kernels.ranges
+    }
     fn stretched(from: &Reach, norm: f32) -> Reach {
         from.stretched(norm)
     }
@@ -348,6 +366,9 @@ impl Number for Models {
     }
     fn affine(level: Level, job: &mut AffineJob<'_>) {
         crate::kernel::affine_models(level, job);
+    }
+    fn map(kernels: &MapKernels) -> fn(Level, &mut MapJob<'_>) {
+        kernels.models
     }
     fn stretched(from: &Reach, norm: f32) -> Reach {
         from.stretched(norm)

@@ -9,7 +9,7 @@ use crate::formula::{Binary, Formula, Term, Unary};
 use crate::kernel::AFFINE_CONSTANTS;
 use crate::operation::{Code, Derive, Link, NO_REGION, Region, Run, Step, StepId, Steps};
 use crate::shape::{CombineTable, Kind, Shape};
-use crate::shapes::{self, formula, twist};
+use crate::shapes::{self, extrude, formula, twist};
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
@@ -166,6 +166,32 @@ impl Compiler {
                 }
                 let factor = self.derived(1, |out| Derive::Factor { table, args: tree.args.clone(), out: out.start });
                 self.push(Step::Scale { from, factor: factor.start() as u32 })
+            }
+            Kind::Map(table) => {
+                let (space, at) = self.settled(space);
+                let constants = self.prepared(table.prepare, &tree.args);
+                let point = self.push(Step::Map { table, from: space.point, at, constants });
+                let value = self.emit(&tree.children[0], &Space { point, chain: Vec::new() }, material, None);
+                self.joined(before, value)
+            }
+            Kind::Extrude(table) => {
+                let (space, at) = self.settled(space);
+                let a = self.emit(&tree.children[0], &space, material, None);
+                let Kind::Primitive(slab) = &shapes::SLAB.kind else { unreachable!("a slab is a primitive") };
+                let height = self.prepared(extrude::core, &tree.args);
+                let slope = self.derived(1, |out| Derive::Literals { numbers: vec![1.0], out }).start() as u32;
+                let b = Step::Primitive {
+                    table: slab,
+                    point: space.point,
+                    at,
+                    constants: height,
+                    slope,
+                    region: NO_REGION,
+                };
+                let b = self.push(b);
+                let constants = self.prepared(table.prepare, &tree.args);
+                let value = self.push(Step::Combine { table, a, b, constants });
+                self.joined(before, value)
             }
             Kind::Modify(table) => {
                 let from = self.emit(&tree.children[0], space, material, before);
@@ -344,7 +370,7 @@ pub(crate) fn can_fold(node: &Node) -> bool {
         Kind::Place(_) => is_rigid(node) && can_fold(node.children[0].node()),
         Kind::Modify(_) => false,
         Kind::Paint => can_fold(node.children[0].node()),
-        Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => true,
+        Kind::Map(_) | Kind::Extrude(_) | Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => true,
     }
 }
 

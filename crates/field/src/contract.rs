@@ -11,9 +11,21 @@ pub enum Metric {
     Implicit,
 }
 
+/// How many coordinates of a point a field looks at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Dimension {
+    /// A plane figure: x and y. As long as it is not extruded or revolved, it is no body, and knows no z.
+    Plane,
+    /// A body: x, y and z.
+    #[default]
+    Space,
+}
+
 /// What is known about a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contract {
+    /// Whether it is a plane figure or a body.
+    pub dimension: Dimension,
     /// Where the field is positive.
     pub outside: Metric,
     /// Where the field is negative.
@@ -29,12 +41,17 @@ pub struct Contract {
 
 impl Contract {
     /// An exact signed distance.
-    pub const EXACT: Self =
-        Self { outside: Metric::Exact, inside: Metric::Exact, signed: true, lipschitz: Some(1.0), within: None };
+    pub const EXACT: Self = Self {
+        outside: Metric::Exact,
+        inside: Metric::Exact,
+        signed: true,
+        lipschitz: Some(1.0),
+        within: None,
+        dimension: Dimension::Space,
+    };
 
     /// A signed bound with slope at most 1.
-    pub const BOUND: Self =
-        Self { outside: Metric::Bound, inside: Metric::Bound, signed: true, lipschitz: Some(1.0), within: None };
+    pub const BOUND: Self = Self { outside: Metric::Bound, inside: Metric::Bound, ..Self::EXACT };
 
     /// An exact distance to something without inside.
     pub const SHEET: Self = Self { signed: false, ..Self::EXACT };
@@ -52,6 +69,7 @@ impl Contract {
     /// On each side the weaker of both promises, and signed only if both are.
     pub fn worse_of(self, other: Self) -> Self {
         Self {
+            dimension: self.dimension,
             outside: self.outside.max(other.outside),
             inside: self.inside.max(other.inside),
             signed: self.signed && other.signed,

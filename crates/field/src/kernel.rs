@@ -7,7 +7,7 @@
 
 use crate::expr::Expr;
 use crate::scalar::{Constants, Dual, Interval, Intervals, Lanes, Scalar, Taylor};
-use crate::shape::{Combine, Modify, Primitive};
+use crate::shape::{Combine, Map, Modify, Primitive};
 use crate::simd::{Level, dispatch, dispatch_up_to_avx2};
 use crate::vector::{Vec3, vec3};
 use fearless_simd::Simd;
@@ -434,6 +434,101 @@ pub(crate) fn affine_ranges(level: Level, job: &mut AffineJob<'_>) {
 /// Maps a batch of Taylor models of points.
 pub(crate) fn affine_models(level: Level, job: &mut AffineJob<'_>) {
     dispatch!(level, token => affine_loop::<_, Taylor<_>>(token, job));
+}
+
+/// The work of a map on one batch of points.
+pub struct MapJob<'a> {
+    /// The points.
+    pub from: &'a [Block],
+    /// Subtracted from each point before the formula.
+    pub at: &'a [f32],
+    /// The formula's constants.
+    pub constants: &'a [f32],
+    /// The mapped points.
+    pub to: &'a mut [Block],
+    /// How many points, a multiple of [`WIDEST`].
+    pub count: usize,
+}
+
+#[inline(always)]
+fn map_loop<M: Map, I: Simd, K: Packed<I>>(token: I, job: &mut MapJob<'_>) {
+    let MapJob { from, at, constants, ref mut to, count } = *job;
+    assert!(count <= BATCH && count.is_multiple_of(WIDEST));
+    let c = K::COMPONENTS;
+    let (from, to) = (&from[..3 * c], &mut to[..3 * c]);
+    let like = K::load(token, from, 0);
+    let at = Constants::new(like, at, 3).get::<3>();
+    let constants = Constants::new(like, constants, constants.len());
+    let mut lane = 0;
+    while lane < count {
+        let q = M::map(load_point::<I, K>(token, from, lane) - at.into(), &constants);
+        q.x.store(&mut to[..c], lane);
+        q.y.store(&mut to[c..2 * c], lane);
+        q.z.store(&mut to[2 * c..], lane);
+        lane += Lanes::<I>::COUNT;
+    }
+}
+
+fn map_values<M: Map>(level: Level, job: &mut MapJob<'_>) {
+    dispatch!(level, token => map_loop::<M, _, Lanes<_>>(token, job));
+}
+
+fn map_gradients<M: Map>(level: Level, job: &mut MapJob<'_>) {
+    dispatch!(level, token => map_loop::<M, _, Dual<Lanes<_>>>(token, job));
+}
+
+fn map_seconds<M: Map>(level: Level, job: &mut MapJob<'_>) {
+    dispatch_up_to_avx2!(level, token => map_loop::<M, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
+}
+
+fn map_ranges<M: Map>(level: Level, job: &mut MapJob<'_>) {
+    dispatch!(level, token => map_loop::<M, _, Intervals<_>>(token, job));
+}
+
+fn map_models<M: Map>(level: Level, job: &mut MapJob<'_>) {
+    dispatch!(level, token => map_loop::<M, _, Taylor<_>>(token, job));
+}
+
+/// A map's formula over one number type.
+pub type MapFn<S> = fn(Vec3<S>, &Constants<'_, S>) -> Vec3<S>;
+
+/// A map's formula, for every number type.
+#[derive(Debug)]
+#[allow(missing_docs, reason = "one field for each number type")]
+pub struct MapKernels {
+    pub values: fn(Level, &mut MapJob<'_>),
+    pub gradients: fn(Level, &mut MapJob<'_>),
+    pub seconds: fn(Level, &mut MapJob<'_>),
+    pub ranges: fn(Level, &mut MapJob<'_>),
+    pub models: fn(Level, &mut MapJob<'_>),
+    pub real: MapFn<f64>,
+    pub interval: MapFn<Interval>,
+    pub slope: MapFn<Dual<Interval>>,
+    pub dual: MapFn<Dual<f64>>,
+    pub dual2: MapFn<Dual2>,
+    pub expr: for<'g> fn(Vec3<Expr<'g>>, &Constants<'_, Expr<'g>>) -> Vec3<Expr<'g>>,
+}
+
+impl MapKernels {
+    /// All instantiations of one formula.
+    pub const fn of<M: Map>() -> Self {
+        fn expr<'g, M: Map>(p: Vec3<Expr<'g>>, c: &Constants<'_, Expr<'g>>) -> Vec3<Expr<'g>> {
+            M::map(p, c)
+        }
+        Self {
+            values: map_values::<M>,
+            gradients: map_gradients::<M>,
+            seconds: map_seconds::<M>,
+            ranges: map_ranges::<M>,
+            models: map_models::<M>,
+            real: M::map::<f64>,
+            interval: M::map::<Interval>,
+            slope: M::map::<Dual<Interval>>,
+            dual: M::map::<Dual<f64>>,
+            dual2: M::map::<Dual2>,
+            expr: expr::<M>,
+        }
+    }
 }
 
 /// A primitive's formula over one number type.

@@ -58,9 +58,9 @@ mod spine;
 pub mod structure;
 pub mod vector;
 
-pub use analysis::{Analysis, MAX_DEPTH, analyse, extent};
+pub use analysis::{Analysis, MAX_DEPTH, analyse, analyse_body, extent};
 pub use cells::{Cell, Cells, Occupancy, Slope, Splitter, Surveyed, Wanted};
-pub use contract::{Aabb, Contract, Extent, Metric};
+pub use contract::{Aabb, Contract, Dimension, Extent, Metric};
 pub use diagnostic::{Diagnostic, Severity};
 pub use enclose::{Encloser, ModelLanes, StretchLanes, ZeroLanes};
 pub use evaluator::{Evaluator, Points, Shares};
@@ -78,12 +78,13 @@ pub use vector::{Vec3, vec3};
 
 /// What the files under `shapes/` need.
 mod shape_prelude {
-    pub(crate) use crate::contract::{Contract, Metric};
+    pub(crate) use crate::contract::{Contract, Dimension, Metric};
     pub(crate) use crate::field::{Field, Form, Triple, Value};
     pub(crate) use crate::kernel::{PrimitiveKernel, primitive_models};
     pub(crate) use crate::scalar::{Constants, Interval, Scalar};
     pub(crate) use crate::shape::{
-        AXIS, About, Combine, ExactForm, Hull, Modify, Param, ParamKind, Place, Primitive, Settled, Shape,
+        AXIS, About, Combine, ExactForm, Hull, Map, Modify, Param, ParamKind, Place, Primitive, Settled, Shape,
+        Supports, in_plane,
     };
     pub(crate) use crate::vector::{Vec3, vec3};
     pub(crate) use glam::{DAffine3, DMat3, DQuat, DVec3};

@@ -5,7 +5,7 @@
 
 use crate::formula::{Binary, Unary};
 use crate::operation::{Run, Step, StepId, Steps};
-use crate::shape::{CombineTable, ModifyTable, PrimitiveTable};
+use crate::shape::{CombineTable, MapTable, ModifyTable, PrimitiveTable};
 
 /// Operations in order, and the registers they work on.
 #[derive(Clone, Debug)]
@@ -26,6 +26,8 @@ pub(crate) struct Listing {
 pub(crate) enum Op {
     /// `points[to] = M points[from] + t`.
     Affine { from: usize, to: usize, constants: Run },
+    /// `points[to] = map(points[from] - at)`.
+    Map { table: &'static MapTable, from: usize, at: Run, constants: Run, to: usize },
     /// `values[out] = primitive(points[point] - at)`, or the minimum of `values[before]` and that.
     Primitive {
         table: &'static PrimitiveTable,
@@ -106,6 +108,9 @@ impl Listing {
             ops.extend(match *step {
                 Step::Point => None,
                 Step::Affine { from, constants } => Some(Op::Affine { from: place(from), to: out, constants }),
+                Step::Map { table, from, at, constants } => {
+                    Some(Op::Map { table, from: place(from), at, constants, to: out })
+                }
                 Step::Primitive { table, point, at, constants, slope, .. } => {
                     Some(Op::Primitive { table, point: place(point), at, constants, slope, before: None, out })
                 }

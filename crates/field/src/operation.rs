@@ -3,7 +3,7 @@
 use crate::analysis::axis_map;
 use crate::field::MaterialId;
 use crate::formula::{Binary, Unary};
-use crate::shape::{CombineTable, ModifyTable, PlaceTable, PrimitiveTable};
+use crate::shape::{CombineTable, MapTable, ModifyTable, PlaceTable, PrimitiveTable};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -75,6 +75,8 @@ pub(crate) enum Step {
     Point,
     /// The point `M p + t`.
     Affine { from: StepId, constants: Run },
+    /// The point `map(p - at)`.
+    Map { table: &'static MapTable, from: StepId, at: Run, constants: Run },
     /// The value `primitive(p - at)`.
     Primitive { table: &'static PrimitiveTable, point: StepId, at: Run, constants: Run, slope: u32, region: u32 },
     /// The value `combine(a, b)`.
@@ -110,6 +112,7 @@ impl Step {
         match *self {
             Self::Point | Self::Literal { .. } => {}
             Self::Affine { from, .. }
+            | Self::Map { from, .. }
             | Self::Modify { from, .. }
             | Self::Scale { from, .. }
             | Self::Unary { from, .. }
@@ -139,6 +142,7 @@ impl Step {
         match &mut self {
             Self::Point | Self::Literal { .. } => {}
             Self::Affine { from, .. }
+            | Self::Map { from, .. }
             | Self::Modify { from, .. }
             | Self::Scale { from, .. }
             | Self::Unary { from, .. }
@@ -156,7 +160,7 @@ impl Step {
 
     /// Whether it yields a point.
     pub(crate) fn is_point(&self) -> bool {
-        matches!(self, Self::Point | Self::Affine { .. } | Self::Warp { .. })
+        matches!(self, Self::Point | Self::Affine { .. } | Self::Map { .. } | Self::Warp { .. })
     }
 }
 

@@ -31,6 +31,17 @@ pub enum Action {
         /// The first of the constants.
         constants: usize,
     },
+    /// The point `map(p - at)`.
+    Map {
+        /// The function, whose kind is [`Kind::Map`].
+        shape: &'static Shape,
+        /// The point.
+        from: usize,
+        /// The first of the three constants that are subtracted from the point.
+        at: usize,
+        /// The constants of the function.
+        constants: Range<usize>,
+    },
     /// The value `primitive(p - at)`.
     Primitive {
         /// The function, whose kind is [`Kind::Primitive`].
@@ -46,7 +57,7 @@ pub enum Action {
     },
     /// The value `combine(a, b)`.
     Combine {
-        /// The function, whose kind is [`Kind::Combine`].
+        /// The function, whose kind is [`Kind::Combine`] or [`Kind::Extrude`].
         shape: &'static Shape,
         /// The first value.
         a: usize,
@@ -150,6 +161,12 @@ impl Action {
         match *step {
             Step::Point => Self::Point,
             Step::Affine { from, constants } => Self::Affine { from: from.index(), constants: constants.start() },
+            Step::Map { table, from, at, constants } => Self::Map {
+                shape: named(|kind| matches!(kind, Kind::Map(other) if std::ptr::eq(other, table))),
+                from: from.index(),
+                at: at.start(),
+                constants: range(constants),
+            },
             Step::Primitive { table, point, at, constants, region, .. } => Self::Primitive {
                 shape: named(|kind| matches!(kind, Kind::Primitive(other) if std::ptr::eq(other, table))),
                 point: point.index(),
@@ -158,7 +175,9 @@ impl Action {
                 region: (region != NO_REGION).then_some(region as usize),
             },
             Step::Combine { table, a, b, constants } => Self::Combine {
-                shape: named(|kind| matches!(kind, Kind::Combine(other) if std::ptr::eq(other, table))),
+                shape: named(
+                    |kind| matches!(kind, Kind::Combine(other) | Kind::Extrude(other) if std::ptr::eq(other, table)),
+                ),
                 a: a.index(),
                 b: b.index(),
                 constants: range(constants),

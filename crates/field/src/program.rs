@@ -7,7 +7,9 @@
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Graph, Slots};
 use crate::formula::{Binary, Unary};
-use crate::kernel::{CombineFn, CombineKernels, Dual2, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels, affine};
+use crate::kernel::{
+    CombineFn, CombineKernels, Dual2, MapFn, MapKernels, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels, affine,
+};
 use crate::lower::Listing;
 use crate::operands::Operands;
 use crate::operation::{Code, Derive, NO_REGION, Run, Step, StepId, Steps, inverse_of};
@@ -192,6 +194,13 @@ impl Program {
                     point =
                         S::with_table(&self.double, constants, |table| affine(from, &Constants::new(like, table, 12)));
                 }
+                Step::Map { table, from, at, constants } => {
+                    let at = S::with_table(&self.double, at, |table| Constants::new(like, table, 3).get::<3>());
+                    let p = points[place(from)] - at.into();
+                    point = S::with_table(&self.double, constants, |slots| {
+                        S::map(&table.kernels)(p, &Constants::new(like, slots, constants.len()))
+                    });
+                }
                 Step::Primitive { table, point: at_point, at, constants, .. } => {
                     let at = S::with_table(&self.double, at, |table| Constants::new(like, table, 3).get::<3>());
                     let p = points[place(at_point)] - at.into();
@@ -259,7 +268,12 @@ impl Part {
         let one_by_one = OnceLock::new();
         // What is computed from coordinates other than by primitives has no scale. A formula of which nothing but the cut is
         // left does not read them any more.
-        let is_measured = !steps.list.iter().any(|step| matches!(step, Step::Coordinate { .. } | Step::Literal { .. }));
+        // Neither has what a map stretches.
+        let is_measured = !steps.list.iter().any(|step| match step {
+            Step::Coordinate { .. } | Step::Literal { .. } => true,
+            Step::Map { table, .. } => !table.is_short,
+            _ => false,
+        });
         let is_warped = !is_measured && !steps.list.iter().any(|step| matches!(step, Step::Surface { .. }));
         let is_loose = steps.list.iter().any(|step| matches!(step, Step::Primitive { table, .. } if table.is_loose));
         Self {
@@ -434,6 +448,7 @@ trait Host: Scalar {
     fn primitive(kernels: &PrimitiveKernels) -> PrimitiveFn<Self>;
     fn combine(kernels: &CombineKernels) -> CombineFn<Self>;
     fn modify(kernels: &ModifyKernels) -> ModifyFn<Self>;
+    fn map(kernels: &MapKernels) -> MapFn<Self>;
     fn with_table<R>(constants: &[f64], range: Run, read: impl FnOnce(&Self::Table) -> R) -> R;
 }
 
@@ -447,6 +462,9 @@ macro_rules! host {
                 kernels.$field
             }
             fn modify(kernels: &ModifyKernels) -> ModifyFn<Self> {
+                kernels.$field
+            }
+            fn map(kernels: &MapKernels) -> MapFn<Self> {
                 kernels.$field
             }
             fn with_table<R>(constants: &[f64], range: Run, read: impl FnOnce(&[f64]) -> R) -> R {
@@ -468,6 +486,10 @@ impl Host for Expr<'_> {
     }
 
     fn modify(kernels: &ModifyKernels) -> ModifyFn<Self> {
+        kernels.expr
+    }
+
+    fn map(kernels: &MapKernels) -> MapFn<Self> {
         kernels.expr
     }
 

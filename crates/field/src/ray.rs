@@ -26,7 +26,14 @@ impl ExactRay {
                 Kind::Place(table) => map *= (table.map)(&node.numbers()),
                 Kind::Paint => {}
                 Kind::Combine(_) if node.children.len() == 1 => {}
-                Kind::Combine(_) | Kind::Modify(_) | Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => {
+                Kind::Combine(_)
+                | Kind::Map(_)
+                | Kind::Modify(_)
+                | Kind::Extrude(_)
+                | Kind::Formula
+                | Kind::Warp
+                | Kind::Displace
+                | Kind::Twist => {
                     return None;
                 }
             }

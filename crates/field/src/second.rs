@@ -8,7 +8,7 @@
 use crate::bank::{Bank, Number, PrimitiveCall};
 use crate::evaluator::{Evaluator, Points, batches};
 use crate::formula_kernel::{self, FormulaKernels};
-use crate::kernel::{AffineJob, CombineJob, CombineKernels, ModifyJob, ModifyKernels, WIDEST};
+use crate::kernel::{AffineJob, CombineJob, CombineKernels, MapJob, MapKernels, ModifyJob, ModifyKernels, WIDEST};
 use crate::program::Part;
 use crate::simd::Level;
 
@@ -35,6 +35,10 @@ impl Number for Seconds {
 
     fn affine(level: Level, job: &mut AffineJob<'_>) {
         crate::kernel::affine_seconds(level, job);
+    }
+
+    fn map(kernels: &MapKernels) -> fn(Level, &mut MapJob<'_>) {
+        kernels.seconds
     }
 }
 

@@ -2,16 +2,17 @@
 //!
 //! A [`Shape`] is static data plus the kernels instantiated from one generic formula. The scene reader, the schema, the
 //! documentation, the evaluator and the shader text all read descriptors; none of them keeps a list of its own. A new
-//! function is one file under `shapes/` that implements one of the four traits here:
+//! function is one file under `shapes/` that implements one of the five traits here:
 //!
 //! - [`Primitive`]: a point and parameters to a distance;
 //! - [`Combine`]: distances of several children to one, folded from left to right;
 //! - [`Place`]: an affine map of space;
+//! - [`Map`]: any other map of space, or from space to the plane of a figure;
 //! - [`Modify`]: one distance to another.
 
-use crate::contract::Contract;
+use crate::contract::{Contract, Dimension};
 use crate::expr::Expr;
-use crate::kernel::{CombineKernels, ModifyKernels, PrimitiveKernel, PrimitiveKernels};
+use crate::kernel::{CombineKernels, MapKernels, ModifyKernels, PrimitiveKernel, PrimitiveKernels};
 use crate::scalar::{Constants, Interval, Scalar};
 use crate::vector::Vec3;
 use glam::{DAffine3, DVec3};
@@ -70,6 +71,8 @@ pub enum ParamKind {
     Direction,
     /// Three full lengths above 0; a single number stands for three equal ones.
     Size,
+    /// Two full lengths above 0; a single number stands for two equal ones.
+    Size2,
     /// Three factors other than 0.
     Factors,
     /// Three angles about x, y and z.
@@ -97,6 +100,7 @@ impl ParamKind {
             | Self::Angle
             | Self::Choice(_)
             | Self::Flag => 1,
+            Self::Size2 => 2,
             Self::Vector | Self::Direction | Self::Size | Self::Factors | Self::Angles => 3,
             Self::Quaternion | Self::Quadruple | Self::Region | Self::HalfSpaces => 4,
         }
@@ -123,7 +127,9 @@ impl ParamKind {
             Self::Count(least, most) if !(f64::from(least)..=f64::from(most)).contains(&value[0]) => {
                 Some(format!("must be from {least} to {most}, but is {}", brief(value[0])))
             }
-            Self::Size if value.iter().any(|&v| v <= 0.0) => Some("must be above 0 in every direction".into()),
+            Self::Size | Self::Size2 if value.iter().any(|&v| v <= 0.0) => {
+                Some("must be above 0 in every direction".into())
+            }
             Self::Factors if value.contains(&0.0) => Some("must not be 0 in any direction".into()),
             Self::Direction if length < SHORTEST_DIRECTION => Some("must not be the zero vector".into()),
             Self::Quaternion if length < SHORTEST_DIRECTION => Some("must not be the zero quaternion".into()),
@@ -177,6 +183,10 @@ pub trait Primitive: 'static {
     /// to make sure afterwards that they missed nothing.
     const IS_LOOSE: bool = false;
 
+    /// Whether it is a body, or a figure in the plane of x and y, whose formula does not look at z and whose support along z
+    /// is infinite.
+    const DIMENSION: Dimension = Dimension::Space;
+
     /// A fault that no single parameter shows, as a sentence.
     ///
     /// # Errors
@@ -210,6 +220,11 @@ pub trait Primitive: 'static {
 
     /// The formula. Write `#[inline(always)]` before it: a formula that is not inlined loses the instruction set.
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S;
+}
+
+/// The support of a plane figure: `flat` of the direction's length in the plane, or infinite if it leads out of the plane.
+pub(crate) fn in_plane(direction: DVec3, flat: impl FnOnce(f64) -> f64) -> f64 {
+    if direction.z == 0.0 { flat(libm::hypot(direction.x, direction.y)) } else { f64::INFINITY }
 }
 
 /// A surface that rays are intersected with in closed form. Normals have length 1; offsets are along them.
@@ -314,6 +329,42 @@ pub trait Place: 'static {
     }
 }
 
+/// What a [`Map`]'s child reaches: its support in a direction, see [`Primitive::support`].
+pub type Supports<'a> = &'a dyn Fn(DVec3) -> f64;
+
+/// A map of the points at which the child is looked up.
+pub trait Map: 'static {
+    /// Description and parameters.
+    const ABOUT: About;
+
+    /// Whether the child is a figure or a body; the result is a body. [`Dimension::Space`] takes both, and gives what it took.
+    const TAKES: Dimension = Dimension::Space;
+
+    /// Whether the map never lengthens a distance, whatever its parameters, so that the child's distances stay bounds.
+    /// What does lengthen them is marched by the slope of each cell of space.
+    const IS_SHORT: bool = true;
+
+    /// Whether it keeps figures in their plane: x and y of the mapped point do not depend on z.
+    const IS_PLANAR: bool = false;
+
+    /// The constants of the formula.
+    fn prepare(args: &[f64]) -> Vec<f64> {
+        args.to_vec()
+    }
+
+    /// What is known about the result.
+    ///
+    /// # Errors
+    /// Why the child can't be mapped so, as a sentence.
+    fn contract(args: &[f64], child: Contract, reach: Supports<'_>) -> Result<Contract, String>;
+
+    /// The support of the result from that of the child at the same level; see [`Primitive::support`].
+    fn support(args: &[f64], direction: DVec3, reach: Supports<'_>) -> f64;
+
+    /// The formula. Write `#[inline(always)]` before it: a formula that is not inlined loses the instruction set.
+    fn map<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> Vec3<S>;
+}
+
 /// A change of the distance alone.
 pub trait Modify: 'static {
     /// Description and parameters.
@@ -360,8 +411,12 @@ pub enum Kind {
     Combine(CombineTable),
     /// See [`Place`].
     Place(PlaceTable),
+    /// See [`Map`].
+    Map(MapTable),
     /// See [`Modify`].
     Modify(ModifyTable),
+    /// Makes a body of a figure: combines the figure's distance with that from all points within some height of its plane.
+    Extrude(CombineTable),
     /// Gives its child a material.
     Paint,
     /// Computes a formula.
@@ -390,6 +445,7 @@ pub struct FormulaParam {
 #[allow(missing_docs, reason = "documented at the trait's items of the same names")]
 pub struct PrimitiveTable {
     pub is_loose: bool,
+    pub dimension: Dimension,
     pub check: fn(&[f64]) -> Result<(), String>,
     pub prepare: fn(&[f64]) -> Vec<f64>,
     pub contract: fn(&[f64]) -> Contract,
@@ -435,6 +491,19 @@ pub struct PlaceTable {
     pub is_similarity: fn(&[f64]) -> bool,
 }
 
+/// The functions of a [`Map`].
+#[derive(Debug)]
+#[allow(missing_docs, reason = "documented at the trait's items of the same names")]
+pub struct MapTable {
+    pub takes: Dimension,
+    pub is_short: bool,
+    pub is_planar: bool,
+    pub prepare: fn(&[f64]) -> Vec<f64>,
+    pub contract: fn(&[f64], Contract, Supports<'_>) -> Result<Contract, String>,
+    pub support: fn(&[f64], DVec3, Supports<'_>) -> f64,
+    pub kernels: MapKernels,
+}
+
 /// The functions of a [`Modify`].
 #[derive(Debug)]
 #[allow(missing_docs, reason = "documented at the trait's items of the same names")]
@@ -446,6 +515,25 @@ pub struct ModifyTable {
     pub kernels: ModifyKernels,
 }
 
+impl CombineTable {
+    /// The functions of one combination.
+    pub const fn of<C: Combine>() -> Self {
+        fn share<'g, C: Combine>(a: Expr<'g>, b: Expr<'g>, c: &Constants<'_, Expr<'g>>) -> Expr<'g> {
+            C::share(a, b, c)
+        }
+        Self {
+            is_minimum: C::IS_MINIMUM,
+            prepare: C::prepare,
+            contract: C::contract,
+            settle: C::settle,
+            hull: C::HULL,
+            level: C::level,
+            kernels: CombineKernels::of::<C>(),
+            share: share::<C>,
+        }
+    }
+}
+
 impl Shape {
     /// The descriptor of a primitive.
     pub const fn primitive<P: Primitive>() -> Self {
@@ -453,6 +541,7 @@ impl Shape {
             about: P::ABOUT,
             kind: Kind::Primitive(PrimitiveTable {
                 is_loose: P::IS_LOOSE,
+                dimension: P::DIMENSION,
                 check: P::check,
                 prepare: P::prepare,
                 contract: P::contract,
@@ -466,22 +555,12 @@ impl Shape {
 
     /// The descriptor of a way to combine fields.
     pub const fn combine<C: Combine>() -> Self {
-        fn share<'g, C: Combine>(a: Expr<'g>, b: Expr<'g>, c: &Constants<'_, Expr<'g>>) -> Expr<'g> {
-            C::share(a, b, c)
-        }
-        Self {
-            about: C::ABOUT,
-            kind: Kind::Combine(CombineTable {
-                is_minimum: C::IS_MINIMUM,
-                prepare: C::prepare,
-                contract: C::contract,
-                settle: C::settle,
-                hull: C::HULL,
-                level: C::level,
-                kernels: CombineKernels::of::<C>(),
-                share: share::<C>,
-            }),
-        }
+        Self { about: C::ABOUT, kind: Kind::Combine(CombineTable::of::<C>()) }
+    }
+
+    /// The descriptor of a way to make bodies of figures: `C` combines the figure's distance with that along the height.
+    pub const fn extrude<C: Combine>() -> Self {
+        Self { about: C::ABOUT, kind: Kind::Extrude(CombineTable::of::<C>()) }
     }
 
     /// The descriptor of an affine map.
@@ -495,6 +574,30 @@ impl Shape {
                 factor: P::factor,
                 is_similarity: P::is_similarity,
             }),
+        }
+    }
+
+    /// The descriptor of a map.
+    pub const fn map<M: Map>() -> Self {
+        Self {
+            about: M::ABOUT,
+            kind: Kind::Map(MapTable {
+                takes: M::TAKES,
+                is_short: M::IS_SHORT,
+                is_planar: M::IS_PLANAR,
+                prepare: M::prepare,
+                contract: M::contract,
+                support: M::support,
+                kernels: MapKernels::of::<M>(),
+            }),
+        }
+    }
+
+    /// The functions of a combination, be it of shapes, or of a figure and its height.
+    pub fn combination(&self) -> Option<&CombineTable> {
+        match &self.kind {
+            Kind::Combine(table) | Kind::Extrude(table) => Some(table),
+            _ => None,
         }
     }
 
@@ -517,7 +620,14 @@ impl Shape {
         match self.kind {
             Kind::Primitive(_) | Kind::Formula => Arity::None,
             Kind::Combine(_) => Arity::Many,
-            Kind::Place(_) | Kind::Modify(_) | Kind::Paint | Kind::Warp | Kind::Displace | Kind::Twist => Arity::One,
+            Kind::Place(_)
+            | Kind::Map(_)
+            | Kind::Modify(_)
+            | Kind::Extrude(_)
+            | Kind::Paint
+            | Kind::Warp
+            | Kind::Displace
+            | Kind::Twist => Arity::One,
         }
     }
 

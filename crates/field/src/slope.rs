@@ -10,7 +10,7 @@ use crate::formula::{Binary, Unary};
 use crate::operation::{Run, Step, StepId, Steps};
 use crate::program::Program;
 use crate::scalar::{Constants, Dual, Interval, Scalar};
-use crate::shape::Settled;
+use crate::shape::{MapTable, Settled};
 use crate::vector::{Vec3, spectral_norm};
 use glam::DMat3;
 use std::cmp::Ordering;
@@ -222,6 +222,7 @@ impl<'p> Sloper<'p> {
     fn point(&self, step: &Step) -> Option<Mapped> {
         let (from, constants) = match *step {
             Step::Affine { from, constants } => (from, constants),
+            Step::Map { table, from, at, constants } => return Some(self.mapped(table, from, at, constants)),
             Step::Warp { x, y, z } => return Some(Mapped::at([x, y, z].map(|id| self.values[id.index()]))),
             _ => return None,
         };
@@ -238,10 +239,33 @@ impl<'p> Sloper<'p> {
         Some(Mapped { point, rows, norm })
     }
 
+    /// The points that a map takes a box to.
+    fn mapped(&self, table: &MapTable, from: StepId, at: Run, constants: Run) -> Mapped {
+        let from = &self.points[from.index()];
+        let (at, constants) = (self.constants(at), self.constants(constants));
+        let input = |axis: usize| Dual {
+            value: from.point[axis] - Interval::point(at[axis]),
+            gradient: std::array::from_fn(|other| Interval::point(if other == axis { 1.0 } else { 0.0 })),
+        };
+        let p = Vec3 { x: input(0), y: input(1), z: input(2) };
+        let q = (table.kernels.slope)(p, &Constants::new(p.x, constants, constants.len()));
+        let own = [q.x.gradient, q.y.gradient, q.z.gradient];
+        let norm = if table.is_short { matrix_norm(&own).min(1.0) } else { matrix_norm(&own) };
+        let norm = times_up(norm, from.norm);
+        let row = |i: usize, k: usize| {
+            let sum = (0..3).fold(Interval::ZERO, |sum, j| plus(sum, times(own[i][j], from.rows[j][k])));
+            // No entry is larger than the norm, whatever became of derivatives at corners.
+            sum.meet(symmetric(norm))
+        };
+        let rows = std::array::from_fn(|i| std::array::from_fn(|k| row(i, k)));
+        let norm = matrix_norm(&rows).min(norm);
+        Mapped { point: [q.x.value, q.y.value, q.z.value], rows, norm }
+    }
+
     fn value(&self, step: &Step, list: &[Step]) -> Sloped {
         let at = |id: StepId| self.values[id.index()];
         match *step {
-            Step::Point | Step::Affine { .. } | Step::Warp { .. } => Sloped::CONSTANT,
+            Step::Point | Step::Affine { .. } | Step::Map { .. } | Step::Warp { .. } => Sloped::CONSTANT,
             Step::Primitive { table, point, at, constants, slope, .. } => {
                 let Mapped { point, rows, norm } = self.points[point.index()];
                 let slope = self.program.double[slope as usize];

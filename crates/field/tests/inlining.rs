@@ -5,7 +5,7 @@ mod common;
 
 use common::{Random, call};
 use freikugel_field::elementary::FUNCTIONS;
-use freikugel_field::kernel::{BATCH, Block, CombineJob, ModifyJob, PrimitiveJob};
+use freikugel_field::kernel::{BATCH, Block, CombineJob, MapJob, ModifyJob, PrimitiveJob};
 use freikugel_field::simd::{self, Level};
 use freikugel_field::{Evaluator, Kind, Points, Shape, Structure, shapes};
 use glam::DVec3;
@@ -62,7 +62,7 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
             (name, work)
         })
         .collect(),
-        Kind::Combine(table) => [
+        Kind::Combine(table) | Kind::Extrude(table) => [
             ("values", table.kernels.values, 1),
             ("gradients", table.kernels.gradients, 4),
             ("seconds", table.kernels.seconds, 4),
@@ -89,6 +89,22 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
             let constants = single((table.prepare)(&args));
             let work: Work = Box::new(move |level, count| {
                 kernel(level, &mut ModifyJob { from: &from, constants: &constants, out: &mut out, count });
+            });
+            (name, work)
+        })
+        .collect(),
+        Kind::Map(table) => [
+            ("values", table.kernels.values, 3),
+            ("gradients", table.kernels.gradients, 12),
+            ("seconds", table.kernels.seconds, 12),
+        ]
+        .into_iter()
+        .map(|(name, kernel, components)| {
+            let (from, mut to) = (blocks(components), blocks(components));
+            let constants = single((table.prepare)(&args));
+            let work: Work = Box::new(move |level, count| {
+                let at = &[0.0; 3];
+                kernel(level, &mut MapJob { from: &from, at, constants: &constants, to: &mut to, count });
             });
             (name, work)
         })

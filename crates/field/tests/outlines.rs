@@ -49,6 +49,7 @@ fn steps_read_only_what_comes_before_them() {
                 Action::Point => (vec![], 0..0),
                 Action::Affine { from, constants } => (vec![*from], *constants..constants + 12),
                 Action::Primitive { point, constants, .. } => (vec![*point], constants.clone()),
+                Action::Map { from, constants, .. } => (vec![*from], constants.clone()),
                 Action::Combine { a, b, constants, .. } => (vec![*a, *b], constants.clone()),
                 Action::Modify { from, constants, .. } => (vec![*from], constants.clone()),
                 Action::Scale { from, factor } => (vec![*from], *factor..factor + 1),

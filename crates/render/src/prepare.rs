@@ -15,7 +15,7 @@ use freikugel_field::ray::ExactRay;
 use freikugel_field::simd::{self, Level};
 use freikugel_field::{
     Aabb, Cells, Contract, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Program, Severity, Structure,
-    analyse, find_extent,
+    analyse_body, find_extent,
 };
 use freikugel_scene::{Camera, Material, Method, Scene, Tracer};
 use glam::DVec3;
@@ -119,7 +119,7 @@ impl<'s> Renderer<'s> {
         let mut analyses = Vec::with_capacity(fields.len());
         let mut diagnostics = Vec::new();
         for field in &fields {
-            let (analysis, found) = analyse(field);
+            let (analysis, found) = analyse_body(field);
             diagnostics.extend(found);
             analyses.extend(analysis);
         }

@@ -7,7 +7,7 @@ use crate::diagnostic::Severity;
 use crate::record::{Fault, Record};
 use crate::scene::Scene;
 use crate::suggest::quote;
-use freikugel_field::{Diagnostic, Field, Origin, analyse};
+use freikugel_field::{Diagnostic, Field, Origin, analyse_body};
 use std::collections::HashSet;
 use std::panic::Location;
 
@@ -103,7 +103,7 @@ impl Check {
                 self.error(at, format!("another object is called {} already", quote(&object.name)));
             }
             self.faults(at, &format!("object {}", quote(&object.name)), object.faults());
-            let (analysis, faults) = analyse(&object.shape);
+            let (analysis, faults) = analyse_body(&object.shape);
             self.diagnostics.extend(faults);
             let is_foreign = object.material.is_some_and(|id| id.0 as usize >= scene.materials.len());
             // Without an analysis the tree may be too deep to walk through.

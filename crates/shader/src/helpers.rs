@@ -76,6 +76,15 @@ pub(crate) enum Want {
     Gradient,
 }
 
+/// What is wanted of a map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mapping {
+    /// The mapped point.
+    Point,
+    /// The derivatives.
+    Derivative,
+}
+
 /// How constants come into a function.
 enum Passing {
     Each(Vec<String>),
@@ -114,7 +123,7 @@ impl Helpers {
 
     /// A combination of two values, or of two values with their gradients.
     pub(crate) fn combine(&mut self, want: Want, shape: &'static Shape, [a, b]: [Expr; 2], constants: Own) -> Expr {
-        let Kind::Combine(table) = &shape.kind else { unreachable!("a combination") };
+        let table = shape.combination().expect("a combination");
         if table.is_minimum {
             return Expr::call(if want == Want::Value { "min" } else { "nearer" }, [a, b]);
         }
@@ -127,7 +136,7 @@ impl Helpers {
 
     /// The share of the second value in a combination of two.
     pub(crate) fn share(&mut self, shape: &'static Shape, [a, b]: [Expr; 2], constants: Own) -> Expr {
-        let Kind::Combine(table) = &shape.kind else { unreachable!("a combination") };
+        let table = shape.combination().expect("a combination");
         let (passing, key) = self.passing(shape, constants.count, "share");
         let known = match self.known.get(&key) {
             Some(known) => known.clone(),
@@ -143,6 +152,40 @@ impl Helpers {
             }
         };
         passing.call(known, vec![a, b], constants)
+    }
+
+    /// The point that a map takes a point to, or the map's derivatives there: those of the new point by each old coordinate, by
+    /// columns.
+    pub(crate) fn map(&mut self, wants: Mapping, shape: &'static Shape, at: Expr, constants: Own) -> Expr {
+        let Kind::Map(table) = &shape.kind else { unreachable!("a map") };
+        let suffix = match wants {
+            Mapping::Point => "",
+            Mapping::Derivative => "derivative",
+        };
+        let (passing, key) = self.passing(shape, constants.count, suffix);
+        let known = match self.known.get(&key) {
+            Some(known) => known.clone(),
+            None => {
+                let graph = Graph::new();
+                let point: [expr::Expr<'_>; 3] = graph.point();
+                let constants = Constants::new(point[0], &Slots(0), constants.count);
+                let mapped = (table.kernels.expr)(point.into(), &constants);
+                let results = [mapped.x, mapped.y, mapped.z];
+                let inputs: Vec<Expr> = ["x", "y", "z"].map(|axis| Expr::name("p").member(axis)).into();
+                let slot = |slot: usize| passing.slot(slot);
+                let comment = vec![shape.about.summary.to_owned()];
+                let (ty, body, comment) = match wants {
+                    Mapping::Point => {
+                        let (mut body, parts) = statements(&graph, &results, &inputs, &slot);
+                        body.push(Statement::Return(Expr::vector(parts)));
+                        (Type::Vector(3), body, comment)
+                    }
+                    Mapping::Derivative => (Type::Matrix, derivative(&graph, &results, &inputs, &slot), Vec::new()),
+                };
+                self.define(key, vec![("p", Type::Vector(3))], &passing, ty, body, comment)
+            }
+        };
+        passing.call(known, vec![at], constants)
     }
 
     /// A change of a value, or of a value with its gradient.
@@ -338,6 +381,23 @@ impl Helpers {
     }
 }
 
+/// Statements that return the derivatives of a point by each coordinate of the point it was made from, by columns.
+pub(crate) fn derivative(
+    graph: &Graph,
+    point: &[expr::Expr<'_>; 3],
+    inputs: &[Expr],
+    slot: &dyn Fn(usize) -> Expr,
+) -> Vec<Statement> {
+    let derivatives = Graph::new();
+    let duals = graph.differentiate::<3>(point, &derivatives);
+    let columns: Vec<expr::Expr<'_>> =
+        (0..3).flat_map(|axis| duals.iter().map(move |dual| dual.gradient[axis])).collect();
+    let (mut body, parts) = statements(&derivatives, &columns, inputs, slot);
+    let columns = parts.chunks(3).map(|column| Expr::vector(column.iter().cloned()));
+    body.push(Statement::Return(Expr::Make(Type::Matrix, columns.collect())));
+    body
+}
+
 /// Statements for a number and its derivatives by three inputs: the derivatives, then the number.
 pub(crate) fn dual_statements(
     graph: &Graph,
@@ -397,7 +457,8 @@ fn reads(body: &[Statement], name: &str) -> bool {
 fn constant_names(shape: &Shape, count: usize) -> Vec<String> {
     let prepare = match &shape.kind {
         Kind::Primitive(table) => table.prepare,
-        Kind::Combine(table) => table.prepare,
+        Kind::Combine(table) | Kind::Extrude(table) => table.prepare,
+        Kind::Map(table) => table.prepare,
         Kind::Modify(table) => table.prepare,
         _ => |args: &[f64]| args.to_vec(),
     };

@@ -3,7 +3,7 @@
 //! Parts are tried one after another for the nearest, so that those far away can be passed over by their boxes.
 
 use crate::formula::statements;
-use crate::helpers::{Base, Helpers, Own, Want, dual_statements};
+use crate::helpers::{Base, Helpers, Mapping, Own, Want, derivative, dual_statements};
 use crate::names::Names;
 use crate::tree::{Expr, Function, Statement, Type};
 use freikugel_field::expr::{self, Graph, Slots};
@@ -86,7 +86,7 @@ impl Part {
         };
         let cost = |action: &Action| match action {
             Action::Primitive { shape, constants, .. } => loops(shape, constants.len()),
-            Action::Affine { .. } => COST_OF_PRIMITIVE,
+            Action::Affine { .. } | Action::Map { .. } => COST_OF_PRIMITIVE,
             _ => COST_OF_COMBINATION,
         };
         self.outline.steps.iter().map(cost).sum()
@@ -133,6 +133,7 @@ pub(crate) fn outline_key(outline: &Outline, with_regions: bool) -> String {
                 let region = region.filter(|_| with_regions);
                 format!("{} {point} {at} {constants:?} {region:?}", shape.about.name)
             }
+            Action::Map { shape, from, at, constants } => format!("{} {from} {at} {constants:?}", shape.about.name),
             Action::Combine { shape, a, b, constants } => format!("{} {a} {b} {constants:?}", shape.about.name),
             Action::Modify { shape, from, constants } => format!("{} {from} {constants:?}", shape.about.name),
             other => format!("{other:?}"),
@@ -176,7 +177,11 @@ impl<'a> Walk<'a> {
             });
             // Only points are counted: those that several steps read get a name.
             match *action {
-                Action::Primitive { point, .. } | Action::Affine { from: point, .. } => reads[point] += 1,
+                Action::Primitive { point, .. }
+                | Action::Affine { from: point, .. }
+                | Action::Map { from: point, .. } => {
+                    reads[point] += 1;
+                }
                 Action::Coordinate { point, .. } => reads[point] += 1,
                 _ => {}
             }
@@ -264,6 +269,18 @@ impl<'a> Walk<'a> {
                 let matrix = Expr::call("matrix", [base.place(constants)]);
                 self.maps[index] = Some((from, matrix.clone()));
                 let point = matrix * self.point(from) + triple(base.place(constants + 9));
+                self.set_point(index, point);
+                return;
+            }
+            Action::Map { shape, from, at, constants } => {
+                let own = Own::new(base, constants);
+                let at = self.moved(*from, *at);
+                if want == Want::Gradient {
+                    let derivative = self.helpers.map(Mapping::Derivative, shape, at.clone(), own);
+                    let map = self.bind("bend", Type::Matrix, derivative);
+                    self.maps[index] = Some((*from, map));
+                }
+                let point = self.helpers.map(Mapping::Point, shape, at, own);
                 self.set_point(index, point);
                 return;
             }
@@ -363,14 +380,8 @@ impl<'a> Walk<'a> {
             None => self.point(point),
         };
         if self.want == Want::Gradient {
-            let derivatives = Graph::new();
-            let duals = graph.differentiate::<3>(&results, &derivatives);
-            // By columns: the derivatives of the new point by each old coordinate.
-            let columns: Vec<expr::Expr<'_>> =
-                (0..3).flat_map(|axis| duals.iter().map(move |dual| dual.gradient[axis])).collect();
-            let (mut body, parts) = statements(&derivatives, &columns, &inputs, &slot);
-            let columns = parts.chunks(3).map(|column| Expr::vector(column.iter().cloned()));
-            body.push(Statement::Return(Expr::Make(Type::Matrix, columns.collect())));
+            let results = results.try_into().expect("three coordinates");
+            let body = derivative(&graph, &results, &inputs, &slot);
             let name = self.define("warp_derivative", index, Type::Matrix, body);
             let map = self.bind("bend", Type::Matrix, Expr::call(name, [at.clone()]));
             self.maps[index] = Some((point, map));

@@ -14,7 +14,9 @@ use crate::scene;
 use crate::target::MOST_UNIFORM_BYTES;
 use crate::tree::Item;
 use freikugel_field::shape::ExactForm;
-use freikugel_field::{Aabb, Action, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Structure, find_extent};
+use freikugel_field::{
+    Aabb, Action, Diagnostic, Extent, Field, Interval, Kind, Limits, MaterialId, Shape, Structure, find_extent,
+};
 use freikugel_render::plan::PlannedObject;
 use freikugel_render::{Plan, PrepareError};
 use freikugel_scene::{Light, Material, Model, Pattern, Scene};
@@ -396,8 +398,11 @@ fn part(source: Source, compile: impl Fn(&Field) -> Result<Structure, ShaderErro
     let structure = compile(&source.field)?;
     let outline = structure.program(DVec3::ZERO).outline();
     // What is computed from coordinates other than by primitives has no scale of its own.
-    let is_measured =
-        !outline.steps.iter().any(|action| matches!(action, Action::Coordinate { .. } | Action::Literal { .. }));
+    let is_measured = !outline.steps.iter().any(|action| match action {
+        Action::Coordinate { .. } | Action::Literal { .. } => true,
+        Action::Map { shape: Shape { kind: Kind::Map(table), .. }, .. } => !table.is_short,
+        _ => false,
+    });
     Ok(Part { source, structure, outline, base: 0, regions: Vec::new(), is_measured })
 }
 

@@ -1,6 +1,6 @@
 //! Formula: a surface where an expression in x, y and z is 0.
 
-use crate::contract::{Contract, Metric};
+use crate::contract::{Contract, Dimension, Metric};
 use crate::field::{Form, Node};
 use crate::formula::Formula as Expression;
 use crate::scalar::{Dual, Interval, Scalar};
@@ -87,6 +87,7 @@ pub(crate) fn contract(node: &Node, args: &[f64]) -> Contract {
     let slope = node.formula(0).map_or(f64::INFINITY, slope_everywhere);
     let cut = if parts.region == Region::Everywhere { 0.0 } else { 1.0 };
     Contract {
+        dimension: Dimension::Space,
         outside: Metric::Implicit,
         inside: Metric::Implicit,
         signed: !parts.is_sheet,

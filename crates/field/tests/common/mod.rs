@@ -2,8 +2,8 @@
 #![allow(dead_code, reason = "each test file uses a part")]
 
 use freikugel_field::shape::Kind;
-use freikugel_field::{Arity, Field, Origin, ParamKind, Shape, Value, analyse, shapes};
-use glam::{DMat3, DQuat, DVec3};
+use freikugel_field::{Arity, Dimension, Field, Origin, ParamKind, Shape, Value, analyse, shapes};
+use glam::{DMat3, DQuat, DVec2, DVec3};
 
 /// A small seeded generator (xorshift64*).
 pub(crate) struct Random(u64);
@@ -60,6 +60,7 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
         ParamKind::Vector => (0..3).for_each(|_| push(random.range(-1.0, 1.0))),
         ParamKind::Direction => random.direction().to_array().into_iter().for_each(push),
         ParamKind::Size => (0..3).for_each(|_| push(random.range(0.3, 2.0))),
+        ParamKind::Size2 => (0..2).for_each(|_| push(random.range(0.3, 2.0))),
         ParamKind::Factors => (0..3).for_each(|_| push(sign * random.range(0.5, 2.0))),
         ParamKind::Angles => (0..3).for_each(|_| push(random.range(-4.0, 4.0))),
         ParamKind::Quaternion => (0..4).for_each(|_| push(random.range(-1.0, 1.0))),
@@ -79,8 +80,17 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
     }
 }
 
-/// A random sound call of `shape`, with children of depth below `depth`.
+/// A random sound call of `shape` that is a body if there are such, with children of depth below `depth`.
 pub(crate) fn call(shape: &'static Shape, depth: u32, random: &mut Random) -> Field {
+    call_in(Dimension::Space, shape, depth, random)
+}
+
+fn call_in(dimension: Dimension, shape: &'static Shape, depth: u32, random: &mut Random) -> Field {
+    let children_in = match &shape.kind {
+        Kind::Extrude(_) => Dimension::Plane,
+        Kind::Map(table) if table.takes == Dimension::Plane => Dimension::Plane,
+        _ => dimension,
+    };
     for _ in 0..1000 {
         let mut args = Vec::new();
         for param in shape.about.params {
@@ -88,8 +98,8 @@ pub(crate) fn call(shape: &'static Shape, depth: u32, random: &mut Random) -> Fi
         }
         let children: Vec<Field> = match shape.arity() {
             Arity::None => Vec::new(),
-            Arity::One => vec![tree(depth, random)],
-            Arity::Many => (0..2 + random.below(2)).map(|_| tree(depth, random)).collect(),
+            Arity::One => vec![tree_in(children_in, depth, random)],
+            Arity::Many => (0..2 + random.below(2)).map(|_| tree_in(children_in, depth, random)).collect(),
         };
         let material = matches!(shape.kind, Kind::Paint).then(|| freikugel_field::MaterialId(random.below(3) as u32));
         let field = Field::with_origin(shape, args, children, material, Origin::Document(0));
@@ -102,7 +112,22 @@ pub(crate) fn call(shape: &'static Shape, depth: u32, random: &mut Random) -> Fi
 
 /// Whether the values of a shape are distances or bounds of them. What needs formulas or warps space has tests of its own.
 pub(crate) fn is_measured(shape: &Shape) -> bool {
-    !matches!(shape.kind, Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist)
+    match &shape.kind {
+        Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => false,
+        Kind::Map(table) => table.is_short,
+        _ => true,
+    }
+}
+
+/// Whether a shape can be a body, or a figure. Maps that hardly ever keep a figure in its plane are left out.
+fn can_be(shape: &Shape, dimension: Dimension) -> bool {
+    match (&shape.kind, dimension) {
+        (Kind::Primitive(table), _) => table.dimension == dimension,
+        (Kind::Extrude(_), _) => dimension == Dimension::Space,
+        (Kind::Map(table), Dimension::Plane) => table.is_planar,
+        (Kind::Place(_), Dimension::Plane) => ["scale", "stretch"].contains(&shape.about.name),
+        _ => true,
+    }
 }
 
 /// All shapes whose values are distances or bounds of them.
@@ -112,10 +137,14 @@ fn measured() -> impl Iterator<Item = &'static Shape> {
 
 /// A random sound field with at most `depth` operators above a primitive.
 pub(crate) fn tree(depth: u32, random: &mut Random) -> Field {
-    let fits = |shape: &&'static Shape| depth > 0 || shape.arity() == Arity::None;
+    tree_in(Dimension::Space, depth, random)
+}
+
+fn tree_in(dimension: Dimension, depth: u32, random: &mut Random) -> Field {
+    let fits = |shape: &&'static Shape| can_be(shape, dimension) && (depth > 0 || shape.arity() == Arity::None);
     let choices: Vec<_> = measured().filter(fits).collect();
     let shape = choices[random.below(choices.len())];
-    call(shape, depth.saturating_sub(1), random)
+    call_in(dimension, shape, depth.saturating_sub(1), random)
 }
 
 /// A field on one line.
@@ -146,6 +175,26 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
     let across = p.x.hypot(p.y);
     Some(match (node.shape.about.name, args.as_slice()) {
         ("sphere", [r]) => p.length_squared() < r * r,
+        ("circle", [r]) => across < *r,
+        ("rectangle", [x, y, round]) => {
+            let core = DVec2::new(*x, *y) / 2.0 - *round;
+            let p = p.truncate();
+            let nearest = p.clamp(-core, core);
+            p == nearest || p.distance(nearest) < *round
+        }
+        ("slab", [thickness, _]) => p.z.abs() < thickness / 2.0,
+        ("extrude", [height, round]) if *round == 0.0 => contains(children.next()?, p)? && p.z.abs() < height / 2.0,
+        ("extrude", _) => return None,
+        ("revolve", [offset]) => contains(children.next()?, DVec3::new(across - offset, p.z, 0.0))?,
+        ("symmetry", [axes]) => {
+            let folded = *axes as usize + 1;
+            let fold = |axis: usize| if folded >> axis & 1 == 1 { p[axis].abs() } else { p[axis] };
+            contains(children.next()?, DVec3::new(fold(0), fold(1), fold(2)))?
+        }
+        ("elongate", [x, y, z]) => {
+            let half = DVec3::new(*x, *y, *z) / 2.0;
+            contains(children.next()?, p - p.clamp(-half, half))?
+        }
         ("plane", [x, y, z, d]) => DVec3::new(*x, *y, *z).normalize().dot(p) < *d,
         ("sheet", _) => return None,
         ("box", [x, y, z, round]) => {

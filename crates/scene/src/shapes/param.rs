@@ -32,6 +32,12 @@ impl Notation<Vec<f64>> for ParamKind {
             (Self::Size, Written::Array(_)) | (Self::Vector | Self::Direction | Self::Factors, _) => {
                 reader.numbers(value, ["x", "y", "z"])?.to_vec()
             }
+            (Self::Size2, Written::NumberLit(_)) => vec![reader.number(value)?; 2],
+            (Self::Size2, Written::Array(_)) => reader.numbers(value, ["x", "y"])?.to_vec(),
+            (Self::Size2, _) => {
+                reader.mistyped(value, "a number or a list of 2 numbers, [x, y]", None);
+                return None;
+            }
             (Self::Size, _) => {
                 reader.mistyped(value, "a number or a list of 3 numbers, [x, y, z]", None);
                 return None;
@@ -63,9 +69,13 @@ impl Notation<Vec<f64>> for ParamKind {
                 _ => return None,
             },
             Self::HalfSpaces => value.chunks(4).map(list).collect(),
-            Self::Vector | Self::Direction | Self::Size | Self::Factors | Self::Quaternion | Self::Quadruple => {
-                list(value)
-            }
+            Self::Vector
+            | Self::Direction
+            | Self::Size
+            | Self::Size2
+            | Self::Factors
+            | Self::Quaternion
+            | Self::Quadruple => list(value),
         })
     }
 
@@ -88,6 +98,10 @@ impl Notation<Vec<f64>> for ParamKind {
             Self::Vector | Self::Angles => numbers_schema(3),
             Self::Direction => direction_schema(),
             Self::Size => json!({ "anyOf": [length(), three(length())] }),
+            Self::Size2 => {
+                let two = json!({ "type": "array", "items": length(), "minItems": 2, "maxItems": 2 });
+                json!({ "anyOf": [length(), two] })
+            }
             Self::Factors => three(factor()),
             Self::Quaternion | Self::Quadruple => numbers_schema(4),
             Self::Region => {
@@ -192,6 +206,8 @@ mod tests {
             (ParamKind::Direction, "\"-y\"", vec![0.0, -1.0, 0.0]),
             (ParamKind::Direction, "[1, 2, 3]", vec![1.0, 2.0, 3.0]),
             (ParamKind::Size, "2", vec![2.0; 3]),
+            (ParamKind::Size2, "2", vec![2.0; 2]),
+            (ParamKind::Size2, "[2, 3]", vec![2.0, 3.0]),
             (ParamKind::Flag, "true", vec![1.0]),
             (ParamKind::Quaternion, "[0, 0, 0, 1]", vec![0.0, 0.0, 0.0, 1.0]),
             (ParamKind::HalfSpaces, "[[1, 0, 0, 1], [0, 1, 0, 2]]", vec![1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 2.0]),

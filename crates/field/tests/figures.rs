@@ -1,0 +1,138 @@
+//! Plane figures and what is made of them, and maps of space: beside shapes that are the same by another way.
+
+mod common;
+
+use common::Random;
+use freikugel_field::shapes::*;
+use freikugel_field::{Dimension, Extent, Field, Metric, Program, Severity, Structure, analyse, analyse_body, extent};
+use glam::DVec3;
+
+/// Rounding errors of a few operations on numbers of this size.
+const ROUNDING: f64 = 1e-12;
+
+fn program(field: &Field) -> Program {
+    Structure::compile(std::slice::from_ref(field)).expect("a sound field").program(DVec3::ZERO)
+}
+
+/// Pairs of the same distance by two ways.
+fn pairs() -> Vec<(&'static str, Field, Field)> {
+    let moved = |x: f64, y: f64| sphere(0.4).at([x, y, 0.3]);
+    let figure = || rectangle(0.5, 0.7).at([0.1, 0.4, 0.0]);
+    vec![
+        ("an extruded circle", circle(0.7).extrude(1.2), cylinder(0.7, 1.2).into()),
+        ("an extruded rectangle", rectangle(1.4, 0.6).extrude(1.1), cuboid([1.4, 0.6, 1.1]).into()),
+        (
+            "an extruded circle with round edges",
+            circle(0.7).extrude(1.2).with("round", &[0.2.into()]),
+            cylinder(0.7, 1.2).round(0.2).into(),
+        ),
+        (
+            "an extruded rectangle with round edges and corners",
+            rectangle(1.4, 0.8).round(0.2).extrude(1.1).with("round", &[0.2.into()]),
+            cuboid([1.4, 0.8, 1.1]).round(0.2).into(),
+        ),
+        (
+            "an extruded square that was turned and moved",
+            rectangle(1.0, 1.0).rotate([0.0, 0.0, 1.0], 30.0).at([0.3, -0.2, 0.0]).extrude(0.5),
+            cuboid([1.0, 1.0, 0.5]).rotate([0.0, 0.0, 1.0], 30.0).at([0.3, -0.2, 0.0]),
+        ),
+        (
+            "an extruded circle that was scaled, in another place",
+            circle(0.5).scale(1.5).extrude(0.8).rotate([1.0, 1.0, 0.0], 50.0).at([0.1, 0.2, 0.3]),
+            cylinder(0.75, 0.8).rotate([1.0, 1.0, 0.0], 50.0).at([0.1, 0.2, 0.3]),
+        ),
+        ("a revolved circle", circle(0.3).revolve().with("offset", &[0.9.into()]), torus(0.9, 0.3).into()),
+        ("a revolved rectangle on the axis", rectangle(1.4, 0.8).revolve(), cylinder(0.7, 0.8).into()),
+        (
+            "an extruded and a revolved union",
+            (figure() + figure().at([0.4, 0.3, 0.0])).extrude(0.6),
+            figure().extrude(0.6) + figure().extrude(0.6).at([0.4, 0.3, 0.0]),
+        ),
+        (
+            "four spheres",
+            moved(0.6, 0.5).symmetric("xy"),
+            moved(0.6, 0.5) + moved(-0.6, 0.5) + moved(0.6, -0.5) + moved(-0.6, -0.5),
+        ),
+        (
+            "a longer sphere",
+            sphere(0.4).elongate([1.2, 0.0, 0.0]),
+            capsule([-0.6, 0.0, 0.0], [0.6, 0.0, 0.0], 0.4).into(),
+        ),
+        ("a sphere made a box", sphere(0.2).elongate([1.0, 0.6, 0.8]), cuboid([1.4, 1.0, 1.2]).round(0.2).into()),
+    ]
+}
+
+#[test]
+fn figures_become_the_bodies_they_should() {
+    let mut random = Random::new(3);
+    for (name, made, known) in pairs() {
+        let (one, other) = (program(&made), program(&known));
+        for p in (0..400).map(|_| random.point(1.6)) {
+            let (found, expected) = (one.value(p), other.value(p));
+            // Elongated shapes fall short of the distance inside.
+            let is_bound = analyse(&made).0.expect("sound").contract.inside != Metric::Exact && expected < 0.0;
+            if is_bound {
+                assert!(found <= ROUNDING && found >= expected - ROUNDING, "{name} at {p}: {found}, {expected}");
+            } else {
+                assert!((found - expected).abs() < ROUNDING, "{name} at {p}: {found}, not {expected}");
+            }
+        }
+        let (Extent::Finite(one), Extent::Finite(other)) = (extent(&made), extent(&known)) else {
+            panic!("{name} has an end");
+        };
+        let gap = (one.min - other.min).abs().max((one.max - other.max).abs()).max_element();
+        assert!(gap < 1e-9, "{name}: {one:?}, not {other:?}");
+    }
+}
+
+#[test]
+fn contracts_say_how_much_is_exact() {
+    let contract = |field: Field| analyse(&field).0.expect("a sound field").contract;
+    let exact = |field: Field| {
+        let contract = contract(field);
+        (contract.outside, contract.inside) == (Metric::Exact, Metric::Exact)
+    };
+    assert!(exact(circle(1.0).into()) && exact(circle(1.0).extrude(1.0)));
+    assert!(exact(circle(0.3).revolve().with("offset", &[0.5.into()])));
+    assert!(!exact(circle(0.3).revolve().with("offset", &[0.2.into()])), "it crosses the axis");
+    assert!(exact(sphere(0.3).at([0.5, 0.0, 0.0]).symmetric("x")));
+    assert!(!exact(sphere(0.3).at([0.5, 0.0, 0.0]).symmetric("y")), "it crosses the fold");
+    assert!(!exact(sphere(0.3).elongate([1.0, 0.0, 0.0])));
+    assert!(exact(sphere(0.3).elongate([0.0, 0.0, 0.0])));
+    for figure in
+        [circle(1.0).into(), rectangle(1.0, 2.0) + circle(0.5), circle(0.4).at([0.5, 0.0, 0.0]).symmetric("x")]
+    {
+        assert_eq!(contract(figure.clone()).dimension, Dimension::Plane);
+        assert_eq!(contract(figure.extrude(1.0)).dimension, Dimension::Space);
+    }
+}
+
+#[test]
+fn figures_and_bodies_do_not_mix() {
+    let tilted = || circle(1.0).rotate([1.0, 0.0, 0.0], 20.0);
+    for (field, message) in [
+        (circle(1.0) + sphere(1.0), "either plane figures or bodies"),
+        (sphere(1.0).extrude(1.0), "`extrude` takes a plane figure"),
+        (sphere(1.0).revolve(), "`revolve` takes a plane figure"),
+        (circle(1.0).extrude(1.0).extrude(1.0), "`extrude` takes a plane figure"),
+        (tilted().extrude(1.0), "`rotate` takes a plane figure out of its plane"),
+        (circle(1.0).at([0.0, 0.0, 0.5]).extrude(1.0), "`translate` takes a plane figure out of its plane"),
+        (circle(1.0).twist(20.0), "`twist` takes a body"),
+        (circle(1.0).warp(["x", "y", "z"]), "`warp` takes a body"),
+        (rectangle(1.0, 1.0).extrude(1.0).with("round", &[0.6.into()]), "half the height"),
+        (sphere(1.0).elongate([1.0, -1.0, 0.0]), "must not be negative"),
+    ] {
+        let (analysis, diagnostics) = analyse(&field);
+        assert!(analysis.is_none(), "{message}");
+        let errors: Vec<_> = diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).collect();
+        assert!(errors.iter().any(|error| error.message.contains(message)), "{message}: {errors:?}");
+    }
+    let (analysis, diagnostics) = analyse_body(&circle(1.0).into());
+    assert!(analysis.is_none() && diagnostics[0].message.contains("has no height"), "{diagnostics:?}");
+    assert!(analyse_body(&circle(1.0).extrude(1.0)).0.is_some());
+    // Turns within the plane are allowed, and so are half turns out of it and back.
+    for axis in [[0.0, 0.0, 1.0], [0.0, 0.0, -2.0]] {
+        assert!(analyse(&circle(1.0).rotate(axis, 33.0).extrude(1.0)).0.is_some());
+    }
+    assert!(analyse(&circle(1.0).rotate([1.0, 0.0, 0.0], 180.0).extrude(1.0)).0.is_some());
+}
