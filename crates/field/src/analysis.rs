@@ -8,11 +8,28 @@ use crate::contract::{Aabb, Contract, Dimension, Extent};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::field::{Field, Node};
 use crate::shape::{Arity, Hull, Kind};
-use crate::shapes::{displace, extrude, formula, twist, warp};
+use crate::shapes::{self, displace, extrude, formula, twist, warp};
 use glam::{DAffine3, DMat3, DVec3};
 
 /// The deepest nesting a field may have; deeper ones would exhaust the stack of a small thread.
 pub const MAX_DEPTH: u32 = 512;
+
+/// The most copies of a shape that one node makes: more would take seconds to compile.
+pub const MOST_COPIES: usize = 100_000;
+
+/// The copies that a repetition stands for, each as a shape of its own; `None` if the field is no repetition.
+pub fn copies(field: &Field) -> Option<Vec<Field>> {
+    let node = field.node();
+    let Kind::Copies(table) = &node.shape.kind else { return None };
+    let args = node.numbers();
+    let copy = |index: usize| {
+        let places = (table.places)(&args, index);
+        places.into_iter().rev().fold(node.children[0].clone(), |inner, (shape, args)| {
+            Field::with_origin(shape, args.into_iter().map(Into::into), [inner], None, node.origin)
+        })
+    };
+    Some((0..(table.count)(&args)).map(copy).collect())
+}
 
 /// What is known about a field.
 #[derive(Clone, Debug)]
@@ -159,6 +176,28 @@ impl Walk {
                 }
                 match (table.contract)(&args, child) {
                     Ok(contract) => Some(Contract { dimension: child.dimension, ..contract }),
+                    Err(fault) => self.error(node, None, fault),
+                }
+            }
+            Kind::Copies(table) => {
+                let child = children[0]?;
+                let count = (table.count)(&args);
+                if count > MOST_COPIES {
+                    return self.error(
+                        node,
+                        None,
+                        format!("`{name}` makes {count} copies; at most {MOST_COPIES} are possible"),
+                    );
+                }
+                let is_plane = child.dimension == Dimension::Plane;
+                // Whatever leads out of the plane shows with the second copy, or with the last.
+                if is_plane && ![1, count - 1].into_iter().all(|copy| keeps_plane(&table.map(&args, copy))) {
+                    return self.error(node, None, format!("`{name}` takes a plane figure out of its plane"));
+                }
+                let Kind::Combine(union) = &shapes::UNION.kind else { unreachable!("union combines") };
+                match (union.contract)(&[], child, child) {
+                    Ok(contract) if count > 1 => Some(Contract { dimension: child.dimension, ..contract }),
+                    Ok(_) => Some(child),
                     Err(fault) => self.error(node, None, fault),
                 }
             }
@@ -309,6 +348,13 @@ pub(crate) fn support(field: &Field, direction: DVec3, level: f64) -> f64 {
             let map = (table.map)(&args);
             let within = map.matrix3.transpose() * direction;
             support(&node.children[0], within, level / (table.factor)(&args)) + direction.dot(map.translation)
+        }
+        Kind::Copies(table) => {
+            let of_copy = |index: usize| {
+                let map = table.map(&args, index);
+                support(&node.children[0], map.matrix3.transpose() * direction, level) + direction.dot(map.translation)
+            };
+            (0..(table.count)(&args)).map(of_copy).fold(f64::NEG_INFINITY, f64::max)
         }
         Kind::Map(table) => {
             (table.support)(&args, direction, &|direction| support(&node.children[0], direction, level))

@@ -167,6 +167,24 @@ impl Compiler {
                 let factor = self.derived(1, |out| Derive::Factor { table, args: tree.args.clone(), out: out.start });
                 self.push(Step::Scale { from, factor: factor.start() as u32 })
             }
+            Kind::Copies(table) => {
+                // How many there are shapes the steps.
+                self.fixed.extend(tree.args.clone());
+                let Kind::Combine(union) = &shapes::UNION.kind else { unreachable!("union combines") };
+                let numbers = node.numbers();
+                let mut result = before;
+                for index in 0..(table.count)(&numbers) {
+                    let mut space = space.clone();
+                    space.chain.push(Link::Copy { table, args: tree.args.clone(), index });
+                    result = Some(match result {
+                        Some(so_far) => {
+                            self.emit_folded(&tree.children[0], &space, material, so_far, (union, Run::default()))
+                        }
+                        None => self.emit(&tree.children[0], &space, material, None),
+                    });
+                }
+                result.expect("there is a copy")
+            }
             Kind::Map(table) => {
                 let (space, at) = self.settled(space);
                 let constants = self.prepared(table.prepare, &tree.args);
@@ -370,6 +388,7 @@ pub(crate) fn can_fold(node: &Node) -> bool {
         Kind::Place(_) => is_rigid(node) && can_fold(node.children[0].node()),
         Kind::Modify(_) => false,
         Kind::Paint => can_fold(node.children[0].node()),
+        Kind::Copies(_) => can_fold(node.children[0].node()),
         Kind::Map(_) | Kind::Extrude(_) | Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => true,
     }
 }

@@ -1,6 +1,6 @@
 //! The operands of a long union: what is known of each, and which of them can matter in a box.
 
-use crate::analysis::{Analysis, analyse};
+use crate::analysis::{Analysis, analyse, copies};
 use crate::bvh::{Bvh, Waiting};
 use crate::compile::{can_fold, is_rigid};
 use crate::contract::Aabb;
@@ -141,16 +141,28 @@ fn take_apart<'f>(field: &'f Field, places: &mut Vec<&'f Field>, is_first: bool,
                 take_apart(child, places, is_first && index == 0, operands);
             }
         }
+        Kind::Copies(_) if is_first || can_fold(node) => {
+            for (index, copy) in copies(field).into_iter().flatten().enumerate() {
+                let mut copied = Vec::new();
+                take_apart(&copy, &mut Vec::new(), is_first && index == 0, &mut copied);
+                operands.extend(copied.into_iter().map(|operand| placed(operand, places)));
+            }
+        }
         Kind::Place(_) | Kind::Paint if is_passed_on(node) && holds_union(&node.children[0]) => {
             places.push(field);
             take_apart(&node.children[0], places, is_first, operands);
             places.pop();
         }
-        _ => operands.push(places.iter().rev().fold(field.clone(), |inner, place| {
-            let Node { shape, args, material, origin, .. } = place.node();
-            Field::with_origin(shape, args.iter().copied(), [inner], *material, *origin)
-        })),
+        _ => operands.push(placed(field.clone(), places)),
     }
+}
+
+/// A field below some nodes of one child each, the outermost first.
+fn placed(field: Field, places: &[&Field]) -> Field {
+    places.iter().rev().fold(field, |inner, place| {
+        let Node { shape, args, material, origin, .. } = place.node();
+        Field::with_origin(shape, args.iter().copied(), [inner], *material, *origin)
+    })
 }
 
 /// Whether the value of the only child of a node is that of the node.
@@ -163,6 +175,7 @@ fn holds_union(field: &Field) -> bool {
     let node = field.node();
     match &node.shape.kind {
         Kind::Combine(table) => table.is_minimum,
+        Kind::Copies(_) => true,
         Kind::Place(_) | Kind::Paint => is_passed_on(node) && holds_union(&node.children[0]),
         _ => false,
     }

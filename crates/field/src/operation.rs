@@ -3,7 +3,7 @@
 use crate::analysis::axis_map;
 use crate::field::MaterialId;
 use crate::formula::{Binary, Unary};
-use crate::shape::{CombineTable, MapTable, ModifyTable, PlaceTable, PrimitiveTable};
+use crate::shape::{CombineTable, CopiesTable, MapTable, ModifyTable, PlaceTable, PrimitiveTable};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -194,19 +194,26 @@ pub(crate) enum Derive {
 pub(crate) enum Link {
     /// A placing node.
     Place { table: &'static PlaceTable, args: Range<usize> },
+    /// One of several copies.
+    Copy { table: &'static CopiesTable, args: Range<usize>, index: usize },
     /// An axial shape's own axis, which is the last of its arguments.
     Axis { arg: usize },
 }
 
 impl Link {
     pub(crate) fn is_translation(&self) -> bool {
-        matches!(self, Self::Place { table, .. } if table.is_translation)
+        match self {
+            Self::Place { table, .. } => table.is_translation,
+            Self::Copy { table, .. } => table.are_moved,
+            Self::Axis { .. } => false,
+        }
     }
 
     /// The map of this link.
     pub(crate) fn map(&self, values: &[f64]) -> glam::DAffine3 {
         match self {
             Self::Place { table, args, .. } => (table.map)(&values[args.clone()]),
+            Self::Copy { table, args, index } => table.map(&values[args.clone()], *index),
             Self::Axis { arg } => glam::DAffine3::from_mat3(axis_map(values[*arg] as usize)),
         }
     }

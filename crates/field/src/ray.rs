@@ -30,6 +30,7 @@ impl ExactRay {
                 | Kind::Map(_)
                 | Kind::Modify(_)
                 | Kind::Extrude(_)
+                | Kind::Copies(_)
                 | Kind::Formula
                 | Kind::Warp
                 | Kind::Displace

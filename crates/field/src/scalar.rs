@@ -116,6 +116,13 @@ pub trait Scalar:
     /// The largest integer that is not larger; its derivative is 0 everywhere, except over the steps of an interval.
     fn floor(self) -> Self;
 
+    /// The distance from the nearest even number: up from 0 to 1 and down again. Enclosures are as narrow as those of a
+    /// continuous function can be, which no formula of [`Scalar::floor`] achieves.
+    #[inline(always)]
+    fn zigzag(self) -> Self {
+        (self - ((self + self.lift(1.0)) * self.lift(0.5)).floor() * self.lift(2.0)).abs()
+    }
+
     /// The sine of an angle in radians; NaN at the infinities.
     fn sin(self) -> Self;
 

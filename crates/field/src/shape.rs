@@ -2,12 +2,13 @@
 //!
 //! A [`Shape`] is static data plus the kernels instantiated from one generic formula. The scene reader, the schema, the
 //! documentation, the evaluator and the shader text all read descriptors; none of them keeps a list of its own. A new
-//! function is one file under `shapes/` that implements one of the five traits here:
+//! function is one file under `shapes/` that implements one of the six traits here:
 //!
 //! - [`Primitive`]: a point and parameters to a distance;
 //! - [`Combine`]: distances of several children to one, folded from left to right;
 //! - [`Place`]: an affine map of space;
 //! - [`Map`]: any other map of space, or from space to the plane of a figure;
+//! - [`Copies`]: a union of copies in several places;
 //! - [`Modify`]: one distance to another.
 
 use crate::contract::{Contract, Dimension};
@@ -58,6 +59,8 @@ pub enum ParamKind {
     Factor,
     /// A whole number, at least the first and at most the second one.
     Count(u32, u32),
+    /// Three whole numbers, each at least the first and at most the second one; a single number stands for three equal ones.
+    Counts(u32, u32),
     /// An angle: degrees in files, radians inside.
     Angle,
     /// One of several names, stored as its index. Files that were written with numbers may use those instead, where
@@ -71,6 +74,8 @@ pub enum ParamKind {
     Direction,
     /// Three full lengths above 0; a single number stands for three equal ones.
     Size,
+    /// Three lengths, not negative.
+    Lengths,
     /// Two full lengths above 0; a single number stands for two equal ones.
     Size2,
     /// Three factors other than 0.
@@ -101,7 +106,13 @@ impl ParamKind {
             | Self::Choice(_)
             | Self::Flag => 1,
             Self::Size2 => 2,
-            Self::Vector | Self::Direction | Self::Size | Self::Factors | Self::Angles => 3,
+            Self::Vector
+            | Self::Direction
+            | Self::Size
+            | Self::Lengths
+            | Self::Factors
+            | Self::Angles
+            | Self::Counts(..) => 3,
             Self::Quaternion | Self::Quadruple | Self::Region | Self::HalfSpaces => 4,
         }
     }
@@ -127,6 +138,10 @@ impl ParamKind {
             Self::Count(least, most) if !(f64::from(least)..=f64::from(most)).contains(&value[0]) => {
                 Some(format!("must be from {least} to {most}, but is {}", brief(value[0])))
             }
+            Self::Counts(least, most) if value.iter().any(|&v| Self::Count(least, most).fault(&[v]).is_some()) => {
+                Some(format!("must be whole numbers from {least} to {most}"))
+            }
+            Self::Lengths if value.iter().any(|&v| v < 0.0) => Some("must not be negative in any direction".into()),
             Self::Size | Self::Size2 if value.iter().any(|&v| v <= 0.0) => {
                 Some("must be above 0 in every direction".into())
             }
@@ -365,6 +380,21 @@ pub trait Map: 'static {
     fn map<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> Vec3<S>;
 }
 
+/// A union of copies of the child in several places.
+pub trait Copies: 'static {
+    /// Description and parameters.
+    const ABOUT: About;
+
+    /// Whether copies are moved and never turned.
+    const ARE_MOVED: bool = false;
+
+    /// How many copies there are: one at least.
+    fn count(args: &[f64]) -> usize;
+
+    /// What places copy number `index`: calls of [`Place`], the outermost first, none of which changes a distance.
+    fn places(args: &[f64], index: usize) -> Vec<(&'static Shape, Vec<f64>)>;
+}
+
 /// A change of the distance alone.
 pub trait Modify: 'static {
     /// Description and parameters.
@@ -415,6 +445,8 @@ pub enum Kind {
     Map(MapTable),
     /// See [`Modify`].
     Modify(ModifyTable),
+    /// See [`Copies`].
+    Copies(CopiesTable),
     /// Makes a body of a figure: combines the figure's distance with that from all points within some height of its plane.
     Extrude(CombineTable),
     /// Gives its child a material.
@@ -502,6 +534,26 @@ pub struct MapTable {
     pub contract: fn(&[f64], Contract, Supports<'_>) -> Result<Contract, String>,
     pub support: fn(&[f64], DVec3, Supports<'_>) -> f64,
     pub kernels: MapKernels,
+}
+
+/// The functions of a [`Copies`].
+#[derive(Debug)]
+#[allow(missing_docs, reason = "documented at the trait's items of the same names")]
+pub struct CopiesTable {
+    pub are_moved: bool,
+    pub count: fn(&[f64]) -> usize,
+    pub places: fn(&[f64], usize) -> Vec<(&'static Shape, Vec<f64>)>,
+}
+
+impl CopiesTable {
+    /// The map that places a copy.
+    pub fn map(&self, args: &[f64], index: usize) -> DAffine3 {
+        let places = (self.places)(args, index);
+        places.iter().fold(DAffine3::IDENTITY, |map, (shape, args)| match &shape.kind {
+            Kind::Place(table) => map * (table.map)(args),
+            _ => unreachable!("copies are placed by affine maps"),
+        })
+    }
 }
 
 /// The functions of a [`Modify`].
@@ -593,6 +645,12 @@ impl Shape {
         }
     }
 
+    /// The descriptor of a union of copies.
+    pub const fn copies<C: Copies>() -> Self {
+        let table = CopiesTable { are_moved: C::ARE_MOVED, count: C::count, places: C::places };
+        Self { about: C::ABOUT, kind: Kind::Copies(table) }
+    }
+
     /// The functions of a combination, be it of shapes, or of a figure and its height.
     pub fn combination(&self) -> Option<&CombineTable> {
         match &self.kind {
@@ -624,6 +682,7 @@ impl Shape {
             | Kind::Map(_)
             | Kind::Modify(_)
             | Kind::Extrude(_)
+            | Kind::Copies(_)
             | Kind::Paint
             | Kind::Warp
             | Kind::Displace

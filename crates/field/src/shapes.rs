@@ -28,6 +28,9 @@ mod polynomial;
 pub mod quaternion_julia;
 pub mod rectangle;
 pub mod reflect;
+pub mod repeat;
+pub mod repeat_mirrored;
+pub mod repeat_polar;
 pub mod revolve;
 pub mod rotate;
 pub mod rotate_euler;
@@ -72,6 +75,9 @@ pub use plane::*;
 pub use quaternion_julia::*;
 pub use rectangle::*;
 pub use reflect::*;
+pub use repeat::*;
+pub use repeat_mirrored::*;
+pub use repeat_polar::*;
 pub use revolve::*;
 pub use rotate::*;
 pub use rotate_euler::*;
@@ -120,6 +126,9 @@ pub static ALL: &[&Shape] = &[
     &QUATERNION_JULIA,
     &RECTANGLE,
     &REFLECT,
+    &REPEAT,
+    &REPEAT_MIRRORED,
+    &REPEAT_POLAR,
     &REVOLVE,
     &ROTATE,
     &ROTATE_EULER,

@@ -136,3 +136,59 @@ fn figures_and_bodies_do_not_mix() {
     }
     assert!(analyse(&circle(1.0).rotate([1.0, 0.0, 0.0], 180.0).extrude(1.0)).0.is_some());
 }
+
+#[test]
+fn copies_are_unions_of_what_they_copy() {
+    let child = || cuboid([0.3, 0.5, 0.7]).at([0.4, 0.1, 0.2]).rotate([1.0, 2.0, 0.5], 30.0);
+    let grid = || {
+        (0..2).flat_map(|z| (0..4).flat_map(move |y| (0..3).map(move |x| [x, y, z]))).map(|at: [u32; 3]| {
+            let place = |axis: usize, spacing: f64, count: f64| spacing * (f64::from(at[axis]) - (count - 1.0) / 2.0);
+            // Cells are smaller than the shape, and one axis runs backwards.
+            child().at([place(0, 0.3, 3.0), place(1, -0.8, 4.0), place(2, 0.5, 2.0)])
+        })
+    };
+    let turned = |index: u32, step: f64, rise: f64| {
+        child().rotate([0.0, 1.0, 0.0], step * f64::from(index)).at([0.0, rise * f64::from(index), 0.0])
+    };
+    let helix = child().repeat_polar(9).with("step", &[25f64.to_radians().into()]).with("rise", &[0.15.into()]);
+    let even = child().repeat_polar(7).with("axis", &[1.into()]);
+    let cases: [(Field, Field); 3] = [
+        (child().repeat([0.3, -0.8, 0.5], [3, 4, 2]), union(grid())),
+        (helix.with("axis", &[1.into()]), union((0..9).map(|index| turned(index, 25.0, 0.15)))),
+        (even, union((0..7).map(|index| turned(index, 360.0 / 7.0, 0.0)))),
+    ];
+    let mut random = Random::new(8);
+    for (made, known) in cases {
+        let (one, other) = (program(&made), program(&known));
+        for p in (0..300).map(|_| random.point(2.5)) {
+            assert!((one.value(p) - other.value(p)).abs() < ROUNDING, "{p}");
+        }
+        assert_eq!(extent(&made), extent(&known));
+        // New numbers move the copies; another count needs other steps.
+        let structure = Structure::compile(std::slice::from_ref(&made)).expect("sound");
+        let mut values = structure.values().to_vec();
+        *values.last_mut().expect("numbers") *= 1.1;
+        assert!(structure.bind(&values, DVec3::ZERO).is_ok());
+    }
+    let many = sphere(0.1).repeat([1.0; 3], [100, 100, 100]);
+    let (analysis, diagnostics) = analyse(&many);
+    assert!(analysis.is_none() && diagnostics[0].message.contains("1000000 copies"), "{diagnostics:?}");
+}
+
+#[test]
+fn mirrored_cells_are_folded_one_by_one() {
+    let child = || sphere(0.3).at([0.15, -0.1, 0.05]) + cuboid([0.2, 0.9, 0.1]);
+    let made = program(&child().repeat_mirrored([1.0, 0.0, 1.5]));
+    let known = program(&child());
+    let mut random = Random::new(21);
+    for p in (0..500).map(|_| random.point(6.0)) {
+        // Walls are crossed one after another.
+        let mut q = p;
+        for (axis, edge) in [(0, 1.0), (2, 1.5)] {
+            while q[axis].abs() > edge / 2.0 {
+                q[axis] = f64::copysign(edge, q[axis]) - q[axis];
+            }
+        }
+        assert!((made.value(p) - known.value(q)).abs() < 1e-12, "{p}");
+    }
+}

@@ -109,7 +109,9 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
             (name, work)
         })
         .collect(),
-        Kind::Place(_) | Kind::Paint | Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => Vec::new(),
+        Kind::Place(_) | Kind::Copies(_) | Kind::Paint | Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => {
+            Vec::new()
+        }
     }
 }
 

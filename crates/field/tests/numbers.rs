@@ -1,5 +1,8 @@
 //! The number types by themselves: intervals contain, masks are three-valued, loops stop.
 
+mod common;
+
+use common::Random;
 use freikugel_field::scalar::Trilean;
 use freikugel_field::{Dual, Interval, Scalar};
 use proptest::prelude::*;
@@ -92,4 +95,22 @@ fn intervals_at_the_ends_of_the_line_stay_sound() {
     }
     assert!(Scalar::sqrt(entire).contains(3.0));
     assert!((Interval::point(f64::MAX) * 2.0).contains(f64::MAX));
+}
+
+#[test]
+fn zigzags_are_enclosed_narrowly() {
+    let mut random = Random::new(17);
+    for _ in 0..2000 {
+        let (lo, width) = (random.range(-9.0, 9.0), random.range(0.0, 2.5));
+        let x = Interval::new(lo, lo + width);
+        let found = x.zigzag();
+        let slope = Dual { value: x, gradient: [Interval::point(1.0)] }.zigzag().gradient[0];
+        assert!(found.width() <= width.min(1.0) + 1e-12, "{x:?} became {found:?}");
+        for share in 0..=20 {
+            let at = lo + width * f64::from(share) / 20.0;
+            let nearest_even = 2.0 * (at / 2.0).round();
+            assert!(found.contains((at - nearest_even).abs()), "{at} of {x:?} is not in {found:?}");
+            assert!(slope.contains((at - nearest_even).signum()), "the slope at {at} of {x:?} is not in {slope:?}");
+        }
+    }
 }

@@ -10,7 +10,7 @@ use freikugel_field::expr::{self, Graph, Slots};
 use freikugel_field::field::Origin;
 use freikugel_field::formula::Binary;
 use freikugel_field::shapes;
-use freikugel_field::{Action, Field, Kind, MaterialId, Outline, Scalar, Structure};
+use freikugel_field::{Action, Field, Kind, MaterialId, Outline, Scalar, Structure, copies};
 use std::collections::HashMap;
 
 /// A field of its own among those of a scene.
@@ -42,6 +42,7 @@ fn split(field: &Field, paint: Option<MaterialId>, found: &mut Vec<Field>) {
         Kind::Combine(table) if table.is_minimum => {
             node.children.iter().for_each(|child| split(child, paint, found));
         }
+        Kind::Copies(_) => copies(field).into_iter().flatten().for_each(|copy| split(&copy, paint, found)),
         // The innermost paint holds.
         Kind::Paint => split(&node.children[0], node.material.or(paint), found),
         _ => found.push(match paint {

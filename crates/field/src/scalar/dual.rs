@@ -311,6 +311,16 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
     }
 
     #[inline(always)]
+    fn zigzag(self) -> Self {
+        // It rises after even numbers and falls after odd ones; in between an enclosure holds all slopes from -1 to 1.
+        let x = self.value;
+        let whole = x.floor();
+        let odd = whole - (whole * x.lift(0.5)).floor() * x.lift(2.0);
+        let slope = (x.lift(1.0) - odd * x.lift(2.0)).clamp(-1.0, 1.0);
+        self.chain(x.zigzag(), slope)
+    }
+
+    #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos().0
     }

@@ -353,6 +353,20 @@ impl Scalar for Interval {
         Self { lo: self.lo.floor(), hi: self.hi.floor() }
     }
 
+    fn zigzag(self) -> Self {
+        if !(self.width() < 2.0) {
+            return Self { lo: 0.0, hi: 1.0 };
+        }
+        let (a, b) = (self.lo.zigzag(), self.hi.zigzag());
+        // Whether there is an even or an odd number in between.
+        let meets = |first: f64| ((self.hi - first) / 2.0).floor() * 2.0 + first >= self.lo;
+        let lo = if meets(0.0) { 0.0 } else { a.min(b) };
+        let hi = if meets(1.0) { 1.0 } else { a.max(b) };
+        // Rounding errors are those of the argument.
+        let error = 2.0 * f64::EPSILON * self.lo.abs().max(self.hi.abs());
+        Self { lo: (lo - error).max(0.0), hi: (hi + error).min(1.0) }
+    }
+
     fn sin(self) -> Self {
         self.sin_cos().0
     }

@@ -310,6 +310,18 @@ impl<I: Simd> Scalar for Intervals<I> {
     }
 
     #[inline(always)]
+    fn zigzag(self) -> Self {
+        let (zero, one) = (self.lo.lift(0.0), self.lo.lift(1.0));
+        let (a, b) = (self.lo.zigzag(), self.hi.zigzag());
+        // Even and odd numbers in between.
+        let lo = Lanes::select(self.meets(0.5, 0.0), zero, a.min(b));
+        let hi = Lanes::select(self.meets(0.5, 0.5), one, a.max(b));
+        // Rounding errors are those of the argument.
+        let error = self.lo.abs().max(self.hi.abs()) * (2.0 * UNIT);
+        Self { lo: (lo - error).max(zero), hi: (hi + error).min(one) }
+    }
+
+    #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos().0
     }

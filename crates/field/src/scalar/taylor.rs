@@ -410,6 +410,19 @@ impl<I: Simd> Scalar for Taylor<I> {
     }
 
     #[inline(always)]
+    fn zigzag(self) -> Self {
+        let range = self.range();
+        let two = self.r.lift(2.0);
+        let middle = ((self.p[0] + self.r.lift(1.0)) * self.r.lift(0.5)).floor() * two;
+        let mut near = self;
+        near.p[0] = near.p[0] - middle;
+        let ends = near.range();
+        let (one, least) = (self.r.lift(1.0), self.r.lift(-1.0));
+        let is_one = !ends.lo.lt(least) & !one.lt(ends.hi);
+        Self::choose(is_one, near.abs(), self.flat(range.zigzag()))
+    }
+
+    #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos().0
     }

@@ -30,7 +30,7 @@ impl Map for Elongation {
         summary: "Cuts a shape through the origin, moves the halves apart and fills the gap with the cross-section.",
         params: &[Param::required(
             "by",
-            ParamKind::Vector,
+            ParamKind::Lengths,
             "How far the halves are moved apart in all, along x, y and z; not negative.",
         )],
         elsewhere: &["opElongate", "stretch middle"],
@@ -44,9 +44,6 @@ impl Map for Elongation {
     }
 
     fn contract(args: &[f64], child: Contract, _reach: Supports<'_>) -> Result<Contract, String> {
-        if args.iter().any(|&by| by < 0.0) {
-            return Err("`by` of `elongate` must not be negative in any direction".into());
-        }
         Ok(if args.iter().all(|&by| by == 0.0) { child } else { child.at_most_bound() })
     }
 

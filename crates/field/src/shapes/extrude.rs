@@ -72,17 +72,8 @@ impl Combine for Extrusion {
     }
 
     fn settle(a: Interval, b: Interval, constants: &[f64]) -> Settled {
-        // Without rounding, what is larger counts where the other one is not outside.
-        if constants[0] > 0.0 {
-            return Settled::Open;
-        }
-        if b.hi() < 0.0 && b.hi() < a.lo() {
-            Settled::First
-        } else if a.hi() < 0.0 && a.hi() < b.lo() {
-            Settled::Second
-        } else {
-            Settled::Open
-        }
+        // Never to the height alone: ends look as the figure does, too. Rounding moves values.
+        if constants[0] == 0.0 && b.hi() < 0.0 && b.hi() < a.lo() { Settled::First } else { Settled::Open }
     }
 
     #[inline(always)]

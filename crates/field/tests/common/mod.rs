@@ -60,6 +60,10 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
         ParamKind::Vector => (0..3).for_each(|_| push(random.range(-1.0, 1.0))),
         ParamKind::Direction => random.direction().to_array().into_iter().for_each(push),
         ParamKind::Size => (0..3).for_each(|_| push(random.range(0.3, 2.0))),
+        ParamKind::Lengths => {
+            (0..3).for_each(|_| push(if random.below(3) == 0 { 0.0 } else { random.range(0.4, 2.0) }))
+        }
+        ParamKind::Counts(least, _) => (0..3).for_each(|_| push(f64::from(least) + random.below(3) as f64)),
         ParamKind::Size2 => (0..2).for_each(|_| push(random.range(0.3, 2.0))),
         ParamKind::Factors => (0..3).for_each(|_| push(sign * random.range(0.5, 2.0))),
         ParamKind::Angles => (0..3).for_each(|_| push(random.range(-4.0, 4.0))),
@@ -125,6 +129,7 @@ fn can_be(shape: &Shape, dimension: Dimension) -> bool {
         (Kind::Primitive(table), _) => table.dimension == dimension,
         (Kind::Extrude(_), _) => dimension == Dimension::Space,
         (Kind::Map(table), Dimension::Plane) => table.is_planar,
+        (Kind::Copies(_), Dimension::Plane) => shape.about.name == "repeat",
         (Kind::Place(_), Dimension::Plane) => ["scale", "stretch"].contains(&shape.about.name),
         _ => true,
     }
@@ -167,7 +172,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
     let node = field.node();
     let args = node.numbers();
     let mut children = node.children.iter();
-    let p = match node.axis() {
+    let p = match node.axis().filter(|_| !matches!(node.shape.kind, Kind::Copies(_))) {
         Some(0) => DVec3::new(p.y, p.z, p.x),
         Some(1) => DVec3::new(p.z, p.x, p.y),
         _ => p,
@@ -186,6 +191,19 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         ("extrude", [height, round]) if *round == 0.0 => contains(children.next()?, p)? && p.z.abs() < height / 2.0,
         ("extrude", _) => return None,
         ("revolve", [offset]) => contains(children.next()?, DVec3::new(across - offset, p.z, 0.0))?,
+        ("repeat" | "repeat_polar", _) => {
+            all(freikugel_field::copies(field)?.iter().map(|copy| contains(copy, p)))?.into_iter().any(|copy| copy)
+        }
+        ("repeat_mirrored", spacing) => {
+            // From cell to cell towards the middle.
+            let mut q = p;
+            for axis in (0..3).filter(|&axis| spacing[axis] > 0.0) {
+                while q[axis].abs() > spacing[axis] / 2.0 {
+                    q[axis] = spacing[axis] * q[axis].signum() - q[axis];
+                }
+            }
+            contains(children.next()?, q)?
+        }
         ("symmetry", [axes]) => {
             let folded = *axes as usize + 1;
             let fold = |axis: usize| if folded >> axis & 1 == 1 { p[axis].abs() } else { p[axis] };

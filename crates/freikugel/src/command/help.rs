@@ -96,6 +96,10 @@ fn values(param: &Param) -> String {
         ParamKind::Vector => "[x, y, z]".into(),
         ParamKind::Direction => "[x, y, z], or an axis such as \"x\" or \"-z\"".into(),
         ParamKind::Size => "[x, y, z], or one number for all three".into(),
+        ParamKind::Counts(least, most) => {
+            format!("whole numbers [x, y, z] from {least} to {most}, or one for all three")
+        }
+        ParamKind::Lengths => "[x, y, z], none of them below 0".into(),
         ParamKind::Size2 => "[x, y], or one number for both".into(),
         ParamKind::Factors => "[x, y, z], none of them 0".into(),
         ParamKind::Angles => "[x, y, z] in degrees".into(),

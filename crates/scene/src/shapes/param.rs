@@ -29,8 +29,14 @@ impl Notation<Vec<f64>> for ParamKind {
                 named_direction(reader, value, &name.value)?.to_array().to_vec()
             }
             (Self::Size, Written::NumberLit(_)) => vec![reader.number(value)?; 3],
-            (Self::Size, Written::Array(_)) | (Self::Vector | Self::Direction | Self::Factors, _) => {
+            (Self::Size, Written::Array(_)) | (Self::Vector | Self::Direction | Self::Lengths | Self::Factors, _) => {
                 reader.numbers(value, ["x", "y", "z"])?.to_vec()
+            }
+            (Self::Counts(..), Written::NumberLit(_)) => vec![reader.number(value)?; 3],
+            (Self::Counts(..), Written::Array(_)) => reader.numbers(value, ["x", "y", "z"])?.to_vec(),
+            (Self::Counts(..), _) => {
+                reader.mistyped(value, "a whole number or a list of 3 whole numbers, [x, y, z]", None);
+                return None;
             }
             (Self::Size2, Written::NumberLit(_)) => vec![reader.number(value)?; 2],
             (Self::Size2, Written::Array(_)) => reader.numbers(value, ["x", "y"])?.to_vec(),
@@ -73,6 +79,8 @@ impl Notation<Vec<f64>> for ParamKind {
             | Self::Direction
             | Self::Size
             | Self::Size2
+            | Self::Lengths
+            | Self::Counts(..)
             | Self::Factors
             | Self::Quaternion
             | Self::Quadruple => list(value),
@@ -98,11 +106,16 @@ impl Notation<Vec<f64>> for ParamKind {
             Self::Vector | Self::Angles => numbers_schema(3),
             Self::Direction => direction_schema(),
             Self::Size => json!({ "anyOf": [length(), three(length())] }),
+            Self::Counts(least, most) => {
+                let count = || json!({ "type": "integer", "minimum": least, "maximum": most });
+                json!({ "anyOf": [count(), three(count())] })
+            }
             Self::Size2 => {
                 let two = json!({ "type": "array", "items": length(), "minItems": 2, "maxItems": 2 });
                 json!({ "anyOf": [length(), two] })
             }
             Self::Factors => three(factor()),
+            Self::Lengths => three(json!({ "type": "number", "minimum": 0 })),
             Self::Quaternion | Self::Quadruple => numbers_schema(4),
             Self::Region => {
                 let one = |name: &str, value: Json| {
@@ -207,6 +220,8 @@ mod tests {
             (ParamKind::Direction, "[1, 2, 3]", vec![1.0, 2.0, 3.0]),
             (ParamKind::Size, "2", vec![2.0; 3]),
             (ParamKind::Size2, "2", vec![2.0; 2]),
+            (ParamKind::Counts(1, 9), "3", vec![3.0; 3]),
+            (ParamKind::Counts(1, 9), "[1, 2, 3]", vec![1.0, 2.0, 3.0]),
             (ParamKind::Size2, "[2, 3]", vec![2.0, 3.0]),
             (ParamKind::Flag, "true", vec![1.0]),
             (ParamKind::Quaternion, "[0, 0, 0, 1]", vec![0.0, 0.0, 0.0, 1.0]),
@@ -227,8 +242,11 @@ mod tests {
             (ParamKind::Count(1, 8), "0"),
             (ParamKind::Count(1, 8), "9"),
             (ParamKind::Count(1, 8), "2.5"),
+            (ParamKind::Counts(1, 8), "[1, 2, 9]"),
+            (ParamKind::Counts(1, 8), "[1, 2, 2.5]"),
             (ParamKind::Vector, "\"x\""),
             (ParamKind::Factors, "[1, 0, 1]"),
+            (ParamKind::Lengths, "[1, 0, -1]"),
             (ParamKind::Quaternion, "[0, 0, 0, 0]"),
         ] {
             assert!(read(kind, text).is_err(), "{kind:?} {text}");

@@ -1,0 +1,57 @@
+//! Repetition in a grid: a union of copies, so that it is right for shapes of any size and place.
+
+use super::translate::TRANSLATE;
+use crate::shape_prelude::*;
+
+/// See [`Repeat::repeat`].
+#[derive(Clone, Copy, Debug)]
+pub struct Grid;
+
+/// The descriptor of [`Repeat::repeat`].
+pub static REPEAT: Shape = Shape::copies::<Grid>();
+
+/// Copies of a shape in rows, columns and layers.
+pub trait Repeat: Into<Field> {
+    /// So many copies of the shape along each axis, at this distance from each other; all of them together have their middle
+    /// where the shape has its origin.
+    #[track_caller]
+    fn repeat(self, spacing: impl Into<Triple>, count: [u32; 3]) -> Field {
+        let numbers = spacing.into().0.into_iter().chain(count.map(Value::from));
+        Field::new(&REPEAT, numbers, [self.into()])
+    }
+}
+
+impl<F: Into<Field>> Repeat for F {}
+
+/// The most copies along one axis.
+const MOST: u32 = 10_000;
+
+impl Copies for Grid {
+    const ABOUT: About = About {
+        name: "repeat",
+        summary: "Copies of a shape in rows, columns and layers around the origin. They may overlap, and lie anywhere in their cells.",
+        params: &[
+            Param::required("spacing", ParamKind::Vector, "Distance from one copy to the next, along x, y and z."),
+            Param::required("count", ParamKind::Counts(1, MOST), "How many copies there are, along x, y and z."),
+        ],
+        elsewhere: &["opRepLim", "array", "rep", "tile", "linear_array", "pattern"],
+        example: r#"{ "repeat": { "spacing": [0.6, 0.6, 0], "count": [3, 3, 1], "shape": { "sphere": { "radius": 0.25 } } } }"#,
+    };
+
+    const ARE_MOVED: bool = true;
+
+    fn count(args: &[f64]) -> usize {
+        args[3..].iter().map(|&count| count as usize).product()
+    }
+
+    fn places(args: &[f64], index: usize) -> Vec<(&'static Shape, Vec<f64>)> {
+        let mut index = index;
+        let place = |axis: usize| {
+            let count = args[3 + axis] as usize;
+            let own = index % count;
+            index /= count;
+            args[axis] * (own as f64 - (count as f64 - 1.0) / 2.0)
+        };
+        vec![(&TRANSLATE, [0, 1, 2].map(place).to_vec())]
+    }
+}
