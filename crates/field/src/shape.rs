@@ -391,9 +391,12 @@ pub trait Copies: 'static {
     /// How many copies there are: one at least.
     fn count(args: &[f64]) -> usize;
 
-    /// What places copy number `index`: calls of [`Place`], the outermost first, none of which changes a distance.
-    fn places(args: &[f64], index: usize) -> Vec<(&'static Shape, Vec<f64>)>;
+    /// What places copy number `index`, the outermost call first. None of them changes a distance.
+    fn places(args: &[f64], index: usize) -> Vec<PlaceCall>;
 }
+
+/// A call of a [`Place`] with its arguments.
+pub type PlaceCall = (&'static Shape, Vec<f64>);
 
 /// A change of the distance alone.
 pub trait Modify: 'static {
@@ -542,7 +545,7 @@ pub struct MapTable {
 pub struct CopiesTable {
     pub are_moved: bool,
     pub count: fn(&[f64]) -> usize,
-    pub places: fn(&[f64], usize) -> Vec<(&'static Shape, Vec<f64>)>,
+    pub places: fn(&[f64], usize) -> Vec<PlaceCall>,
 }
 
 impl CopiesTable {

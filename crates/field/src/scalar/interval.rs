@@ -354,7 +354,7 @@ impl Scalar for Interval {
     }
 
     fn zigzag(self) -> Self {
-        if !(self.width() < 2.0) {
+        if self.width() >= 2.0 {
             return Self { lo: 0.0, hi: 1.0 };
         }
         let (a, b) = (self.lo.zigzag(), self.hi.zigzag());

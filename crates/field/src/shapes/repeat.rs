@@ -44,7 +44,7 @@ impl Copies for Grid {
         args[3..].iter().map(|&count| count as usize).product()
     }
 
-    fn places(args: &[f64], index: usize) -> Vec<(&'static Shape, Vec<f64>)> {
+    fn places(args: &[f64], index: usize) -> Vec<PlaceCall> {
         let mut index = index;
         let place = |axis: usize| {
             let count = args[3 + axis] as usize;

@@ -56,12 +56,12 @@ impl Copies for Ring {
         args[0] as usize
     }
 
-    fn places(args: &[f64], index: usize) -> Vec<(&'static Shape, Vec<f64>)> {
+    fn places(args: &[f64], index: usize) -> Vec<PlaceCall> {
         let &[count, step, rise, axis] = args else { unreachable!("four numbers") };
         let step = if step == 0.0 { std::f64::consts::TAU / count } else { step };
         let axis = DVec3::AXES[axis as usize];
         let turn = [&axis.to_array()[..], &[step * index as f64]].concat();
-        let mut places: Vec<(&'static Shape, Vec<f64>)> = Vec::new();
+        let mut places: Vec<PlaceCall> = Vec::new();
         if rise != 0.0 {
             places.push((&TRANSLATE, (axis * rise * index as f64).to_array().to_vec()));
         }
