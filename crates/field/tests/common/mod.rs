@@ -61,7 +61,7 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
         ParamKind::Direction => random.direction().to_array().into_iter().for_each(push),
         ParamKind::Size => (0..3).for_each(|_| push(random.range(0.3, 2.0))),
         ParamKind::Lengths => {
-            (0..3).for_each(|_| push(if random.below(3) == 0 { 0.0 } else { random.range(0.4, 2.0) }))
+            (0..3).for_each(|_| push(if random.below(3) == 0 { 0.0 } else { random.range(0.4, 2.0) }));
         }
         ParamKind::Counts(least, _) => (0..3).for_each(|_| push(f64::from(least) + random.below(3) as f64)),
         ParamKind::Size2 => (0..2).for_each(|_| push(random.range(0.3, 2.0))),
