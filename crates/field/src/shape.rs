@@ -89,6 +89,8 @@ pub enum ParamKind {
     /// A region of space: stored as 0 for all of it, or 1 and a sphere's radius, or 2 and a box's three full edge lengths;
     /// always four numbers.
     Region,
+    /// A list of points of the plane: x, y.
+    Points2,
     /// A list of half-spaces, each with an outward normal and the distance of its plane from the origin: x, y, z, d.
     HalfSpaces,
 }
@@ -105,7 +107,7 @@ impl ParamKind {
             | Self::Angle
             | Self::Choice(_)
             | Self::Flag => 1,
-            Self::Size2 => 2,
+            Self::Size2 | Self::Points2 => 2,
             Self::Vector
             | Self::Direction
             | Self::Size
@@ -119,7 +121,7 @@ impl ParamKind {
 
     /// Whether the value is a list of entries.
     pub const fn is_list(self) -> bool {
-        matches!(self, Self::HalfSpaces)
+        matches!(self, Self::HalfSpaces | Self::Points2)
     }
 
     /// Why `value` is not one of this kind, or `None` if it is. The numbers are as stored: angles in radians.

@@ -3,6 +3,8 @@
 //! Written by `cargo xtask shapes` from the files in the folder of the same name. To add a shape, write its file and run
 //! that command.
 
+pub mod box_frame;
+pub mod capped_torus;
 pub mod capsule;
 pub mod circle;
 pub mod complement;
@@ -10,6 +12,7 @@ pub mod cone;
 pub mod convex_polyhedron;
 pub mod convex_polyhedron_bound;
 pub mod cuboid;
+pub mod cut_sphere;
 pub mod cylinder;
 pub mod difference;
 pub mod displace;
@@ -20,21 +23,27 @@ mod escape;
 pub mod extrude;
 pub mod formula;
 pub mod intersection;
+pub mod link;
 pub mod mandelbulb;
+pub mod octahedron;
 pub mod offset;
 pub mod paint;
 pub mod plane;
+pub mod polygon;
 mod polynomial;
 pub mod quaternion_julia;
 pub mod rectangle;
 pub mod reflect;
+pub mod regular_polygon;
 pub mod repeat;
 pub mod repeat_mirrored;
 pub mod repeat_polar;
 pub mod revolve;
+pub mod ring;
 pub mod rotate;
 pub mod rotate_euler;
 pub mod rotate_quaternion;
+pub mod round_cone;
 pub mod scale;
 pub mod sheet;
 pub mod shell;
@@ -42,7 +51,9 @@ pub mod slab;
 pub mod smooth_difference;
 pub mod smooth_intersection;
 pub mod smooth_union;
+pub mod solid_angle;
 pub mod sphere;
+pub mod star;
 pub mod stretch;
 pub mod symmetry;
 pub mod torus;
@@ -52,6 +63,8 @@ pub mod union;
 pub mod warp;
 pub mod xor;
 
+pub use box_frame::*;
+pub use capped_torus::*;
 pub use capsule::*;
 pub use circle::*;
 pub use complement::*;
@@ -59,6 +72,7 @@ pub use cone::*;
 pub use convex_polyhedron::*;
 pub use convex_polyhedron_bound::*;
 pub use cuboid::*;
+pub use cut_sphere::*;
 pub use cylinder::*;
 pub use difference::*;
 pub use displace::*;
@@ -68,20 +82,26 @@ pub use elongate::*;
 pub use extrude::*;
 pub use formula::*;
 pub use intersection::*;
+pub use link::*;
 pub use mandelbulb::*;
+pub use octahedron::*;
 pub use offset::*;
 pub use paint::*;
 pub use plane::*;
+pub use polygon::*;
 pub use quaternion_julia::*;
 pub use rectangle::*;
 pub use reflect::*;
+pub use regular_polygon::*;
 pub use repeat::*;
 pub use repeat_mirrored::*;
 pub use repeat_polar::*;
 pub use revolve::*;
+pub use ring::*;
 pub use rotate::*;
 pub use rotate_euler::*;
 pub use rotate_quaternion::*;
+pub use round_cone::*;
 pub use scale::*;
 pub use sheet::*;
 pub use shell::*;
@@ -89,7 +109,9 @@ pub use slab::*;
 pub use smooth_difference::*;
 pub use smooth_intersection::*;
 pub use smooth_union::*;
+pub use solid_angle::*;
 pub use sphere::*;
+pub use star::*;
 pub use stretch::*;
 pub use symmetry::*;
 pub use torus::*;
@@ -103,6 +125,8 @@ use crate::shape::Shape;
 
 /// The descriptors of all shapes, by name.
 pub static ALL: &[&Shape] = &[
+    &BOX_FRAME,
+    &CAPPED_TORUS,
     &CAPSULE,
     &CIRCLE,
     &COMPLEMENT,
@@ -110,6 +134,7 @@ pub static ALL: &[&Shape] = &[
     &CONVEX_POLYHEDRON,
     &CONVEX_POLYHEDRON_BOUND,
     &BOX,
+    &CUT_SPHERE,
     &CYLINDER,
     &DIFFERENCE,
     &DISPLACE,
@@ -119,20 +144,26 @@ pub static ALL: &[&Shape] = &[
     &EXTRUDE,
     &FORMULA,
     &INTERSECTION,
+    &LINK,
     &MANDELBULB,
+    &OCTAHEDRON,
     &OFFSET,
     &PAINT,
     &PLANE,
+    &POLYGON,
     &QUATERNION_JULIA,
     &RECTANGLE,
     &REFLECT,
+    &REGULAR_POLYGON,
     &REPEAT,
     &REPEAT_MIRRORED,
     &REPEAT_POLAR,
     &REVOLVE,
+    &RING,
     &ROTATE,
     &ROTATE_EULER,
     &ROTATE_QUATERNION,
+    &ROUND_CONE,
     &SCALE,
     &SHEET,
     &SHELL,
@@ -140,7 +171,9 @@ pub static ALL: &[&Shape] = &[
     &SMOOTH_DIFFERENCE,
     &SMOOTH_INTERSECTION,
     &SMOOTH_UNION,
+    &SOLID_ANGLE,
     &SPHERE,
+    &STAR,
     &STRETCH,
     &SYMMETRY,
     &TORUS,

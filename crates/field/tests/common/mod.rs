@@ -63,6 +63,16 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
         ParamKind::Lengths => {
             (0..3).for_each(|_| push(if random.below(3) == 0 { 0.0 } else { random.range(0.4, 2.0) }));
         }
+        ParamKind::Points2 => {
+            // A star-shaped polygon, with notches.
+            let count = 3 + random.below(6);
+            for corner in 0..count {
+                let angle = std::f64::consts::TAU * (corner as f64 + random.range(0.0, 0.7)) / count as f64;
+                let radius = random.range(0.3, 1.2);
+                push(radius * angle.cos() + 0.1);
+                push(radius * angle.sin());
+            }
+        }
         ParamKind::Counts(least, _) => (0..3).for_each(|_| push(f64::from(least) + random.below(3) as f64)),
         ParamKind::Size2 => (0..2).for_each(|_| push(random.range(0.3, 2.0))),
         ParamKind::Factors => (0..3).for_each(|_| push(sign * random.range(0.5, 2.0))),
@@ -187,6 +197,64 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             let nearest = p.clamp(-core, core);
             p == nearest || p.distance(nearest) < *round
         }
+        ("ring", [outer, inner]) => across < *outer && across > *inner,
+        ("polygon", corners) => winds_around(corners, p),
+        ("star", [tips, outer, inner]) => {
+            let corners: Vec<f64> = (0..2 * *tips as usize)
+                .flat_map(|index| {
+                    let angle = std::f64::consts::PI * index as f64 / tips;
+                    let radius = if index % 2 == 0 { outer } else { inner };
+                    [radius * angle.sin(), radius * angle.cos()]
+                })
+                .collect();
+            winds_around(&corners, p)
+        }
+        ("regular_polygon", [sides, radius, round]) => {
+            // Within the smaller polygon, or near one of its corners or sides.
+            let step = std::f64::consts::PI / sides;
+            let core = radius - round / step.cos();
+            let corner =
+                |index: usize| DVec2::from_angle(2.0 * step * index as f64 + std::f64::consts::FRAC_PI_2) * core;
+            let p = p.truncate();
+            (0..*sides as usize).all(|i| (corner(i) + corner(i + 1)).normalize().dot(p) < core * step.cos())
+                || (0..*sides as usize).any(|i| {
+                    let (a, b) = (corner(i), corner(i + 1));
+                    let share = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+                    p.distance(a.lerp(b, share)) < *round
+                })
+        }
+        ("box_frame", [x, y, z, thickness]) => {
+            let inner = p.abs() - DVec3::new(*x, *y, *z) / 2.0;
+            inner.max_element() < 0.0 && inner.to_array().into_iter().filter(|&side| side > -thickness).count() >= 2
+        }
+        ("link", [length, major, minor, _]) => {
+            let end = (p.z.abs() - length / 2.0).max(0.0);
+            let on_ring = DVec3::new(p.x, 0.0, end).normalize_or(DVec3::X) * *major;
+            DVec3::new(p.x, p.y, end).distance(on_ring) < *minor
+        }
+        ("capped_torus", [angle, major, minor, _]) => {
+            let turn = p.y.atan2(p.x).clamp(-angle / 2.0, angle / 2.0);
+            p.distance(DVec3::new(turn.cos(), turn.sin(), 0.0) * *major) < *minor
+        }
+        ("octahedron", [radius]) => p.abs().element_sum() < *radius,
+        ("round_cone", [bottom, top, height, _]) => {
+            // How far outside of a sphere the point lies has one minimum over all spheres.
+            let (mut low, mut high) = (0.0, 1.0);
+            let at = |share: f64| {
+                p.distance(DVec3::new(0.0, 0.0, height * (share - 0.5))) - (bottom + (top - bottom) * share)
+            };
+            for _ in 0..60 {
+                let third = (high - low) / 3.0;
+                if at(low + third) < at(high - third) {
+                    high -= third;
+                } else {
+                    low += third;
+                }
+            }
+            at(low) < 0.0
+        }
+        ("cut_sphere", [radius, height, _]) => p.length() < *radius && p.z > *height,
+        ("solid_angle", [angle, radius, _]) => p.length() < *radius && p.angle_between(DVec3::Z) < *angle,
         ("slab", [thickness, _]) => p.z.abs() < thickness / 2.0,
         ("extrude", [height, round]) if *round == 0.0 => contains(children.next()?, p)? && p.z.abs() < height / 2.0,
         ("extrude", _) => return None,
@@ -288,6 +356,14 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         }
         (name, args) => panic!("say in the membership test what lies inside {name} with {} numbers", args.len()),
     })
+}
+
+/// Whether a point lies inside a polygon an odd number of times: the angles under which its edges are seen make whole turns.
+fn winds_around(corners: &[f64], p: DVec3) -> bool {
+    let corners: Vec<DVec2> = corners.chunks_exact(2).map(|corner| DVec2::from_slice(corner) - p.truncate()).collect();
+    let turn = |index: usize| corners[index].angle_to(corners[(index + 1) % corners.len()]);
+    let turns: f64 = (0..corners.len()).map(turn).sum();
+    (turns / std::f64::consts::TAU).round() as i64 % 2 != 0
 }
 
 fn all(answers: impl Iterator<Item = Option<bool>>) -> Option<Vec<bool>> {

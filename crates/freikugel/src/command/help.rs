@@ -106,6 +106,7 @@ fn values(param: &Param) -> String {
         ParamKind::Quaternion => "[x, y, z, w]".into(),
         ParamKind::Quadruple => "[real, i, j, k]".into(),
         ParamKind::Region => "{ \"sphere\": radius } or { \"box\": size }".into(),
+        ParamKind::Points2 => "a list of [x, y]".into(),
         ParamKind::HalfSpaces => "a list of [x, y, z, d]".into(),
     };
     let default = match (param.default, param.kind) {

@@ -52,7 +52,8 @@ impl Notation<Vec<f64>> for ParamKind {
             (Self::Quaternion, _) => reader.numbers(value, ["x", "y", "z", "w"])?.to_vec(),
             (Self::Quadruple, _) => reader.numbers(value, ["real", "i", "j", "k"])?.to_vec(),
             (Self::Region, _) => region(reader, value)?,
-            (Self::HalfSpaces, _) => half_spaces(reader, value)?,
+            (Self::HalfSpaces, _) => entries(reader, value, "half-spaces, [x, y, z, d]", ["x", "y", "z", "d"])?,
+            (Self::Points2, _) => entries(reader, value, "points, [x, y]", ["x", "y"])?,
         };
         let fault = if numbers.is_empty() { Some(NO_ENTRIES.into()) } else { ParamKind::fault(*self, &numbers) };
         reader.sound(value, numbers, fault)
@@ -75,6 +76,7 @@ impl Notation<Vec<f64>> for ParamKind {
                 _ => return None,
             },
             Self::HalfSpaces => value.chunks(4).map(list).collect(),
+            Self::Points2 => value.chunks(2).map(list).collect(),
             Self::Vector
             | Self::Direction
             | Self::Size
@@ -127,9 +129,8 @@ impl Notation<Vec<f64>> for ParamKind {
                     one("box", json!({ "anyOf": [length(), three(length())] })),
                 ] })
             }
-            Self::HalfSpaces => {
-                json!({ "type": "array", "items": numbers_schema(4), "minItems": 1 })
-            }
+            Self::HalfSpaces => json!({ "type": "array", "items": numbers_schema(4), "minItems": 1 }),
+            Self::Points2 => json!({ "type": "array", "items": numbers_schema(2), "minItems": 1 }),
         }
     }
 }
@@ -181,9 +182,15 @@ fn region(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
     }
 }
 
-fn half_spaces(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
+/// A list of entries that are lists of numbers themselves.
+fn entries<const N: usize>(
+    reader: &mut Reader,
+    value: &Written<'_>,
+    what: &str,
+    names: [&'static str; N],
+) -> Option<Vec<f64>> {
     let Written::Array(array) = value else {
-        reader.mistyped(value, "a list of half-spaces, [x, y, z, d] each", None);
+        reader.mistyped(value, &format!("a list of {what} each"), None);
         return None;
     };
     let mut numbers = Vec::new();
@@ -191,9 +198,9 @@ fn half_spaces(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
     let outer = reader.label().to_string();
     for (index, element) in array.elements.iter().enumerate() {
         let label = format!("entry {} of {outer}", index + 1);
-        let plane = reader.labelled(label, |reader| reader.numbers(element, ["x", "y", "z", "d"]));
-        is_sound &= plane.is_some();
-        numbers.extend(plane.into_iter().flatten());
+        let entry = reader.labelled(label, |reader| reader.numbers(element, names));
+        is_sound &= entry.is_some();
+        numbers.extend(entry.into_iter().flatten());
     }
     is_sound.then_some(numbers)
 }
@@ -220,6 +227,7 @@ mod tests {
             (ParamKind::Direction, "[1, 2, 3]", vec![1.0, 2.0, 3.0]),
             (ParamKind::Size, "2", vec![2.0; 3]),
             (ParamKind::Size2, "2", vec![2.0; 2]),
+            (ParamKind::Points2, "[[1, 2], [3, 4], [5, 6]]", vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]),
             (ParamKind::Counts(1, 9), "3", vec![3.0; 3]),
             (ParamKind::Counts(1, 9), "[1, 2, 3]", vec![1.0, 2.0, 3.0]),
             (ParamKind::Size2, "[2, 3]", vec![2.0, 3.0]),
@@ -262,6 +270,7 @@ mod tests {
             (ParamKind::Flag, json!(false)),
             (ParamKind::Size, json!([1, 2, 3])),
             (ParamKind::HalfSpaces, json!([[1, 0, 0, 0.5]])),
+            (ParamKind::Points2, json!([[1, 0], [0.5, 2], [0, 1]])),
         ] {
             let numbers = read(kind, &written.to_string()).expect("it is sound");
             assert_eq!(kind.write(&numbers), Some(written));

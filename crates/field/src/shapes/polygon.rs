@@ -1,0 +1,89 @@
+//! Polygon in the plane, given by its corners. Exact.
+//!
+//! The nearest of all edges gives the distance; whether the half-line to the right crosses an odd number of them gives the side.
+
+use crate::shape_prelude::*;
+
+/// See [`polygon`].
+#[derive(Clone, Copy, Debug)]
+pub struct Polygon;
+
+/// The descriptor of [`polygon`].
+pub static POLYGON: Shape = Shape::primitive::<Polygon>();
+
+/// The polygon with these corners, in either direction. Where edges cross, what lies inside an even number of times is outside.
+#[track_caller]
+pub fn polygon<V: Into<Value>>(corners: impl IntoIterator<Item = [V; 2]>) -> Form<Polygon> {
+    Form::new(&POLYGON, corners.into_iter().flat_map(|corner| corner.map(Into::into)))
+}
+
+impl Primitive for Polygon {
+    const ABOUT: About = About {
+        name: "polygon",
+        summary: "A plane figure: a polygon with any corners, convex or not.",
+        params: &[Param::required(
+            "points",
+            ParamKind::Points2,
+            "The corners [x, y], one after another; the last one is joined to the first.",
+        )],
+        elsewhere: &["sdPolygon", "polyline", "triangle2", "quad2", "trapezoid", "rhombus", "parallelogram"],
+        example: r#"{ "extrude": { "height": 0.5, "shape": { "polygon": { "points":
+            [[-0.9, -0.6], [0.9, -0.6], [0.3, 0], [0.6, 0.8], [-0.6, 0.4]] } } } }"#,
+    };
+
+    const DIMENSION: Dimension = Dimension::Plane;
+
+    fn check(args: &[f64]) -> Result<(), String> {
+        let corners: Vec<&[f64]> = args.chunks_exact(2).collect();
+        if corners.len() < 3 {
+            return Err("`polygon` needs three corners at least".into());
+        }
+        match (0..corners.len()).find(|&index| corners[index] == corners[(index + 1) % corners.len()]) {
+            Some(index) => Err(format!("corner {} of `polygon` and the next one are the same", index + 1)),
+            None => Ok(()),
+        }
+    }
+
+    fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
+        support_of_corners(args, direction, level)
+    }
+
+    #[inline(always)]
+    fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
+        polygon_distance(p, c)
+    }
+}
+
+/// The support of a polygon with these corners.
+pub(crate) fn support_of_corners(corners: &[f64], direction: DVec3, level: f64) -> f64 {
+    let along = |corner: &[f64]| corner[0] * direction.x + corner[1] * direction.y;
+    let farthest = corners.chunks_exact(2).map(along).fold(f64::NEG_INFINITY, f64::max);
+    in_plane(direction, |across| farthest + level * across)
+}
+
+/// The signed distance from a polygon whose corners are the constants.
+#[inline(always)]
+pub(crate) fn polygon_distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
+    let (zero, one) = (p.x.lift(0.0), p.x.lift(1.0));
+    let count = c.count() / 2;
+    let (mut ax, mut ay) = (c.at(2 * count - 2), c.at(2 * count - 1));
+    // The way from the nearest point of all edges so far.
+    let (mut nx, mut ny) = (p.x - ax, p.y - ay);
+    let mut side = one;
+    for index in 0..count {
+        let (bx, by) = (c.at(2 * index), c.at(2 * index + 1));
+        let (ex, ey) = (ax - bx, ay - by);
+        let (wx, wy) = (p.x - bx, p.y - by);
+        let along = ((wx * ex + wy * ey) / (ex.square() + ey.square())).max(zero).min(one);
+        let (dx, dy) = (wx - ex * along, wy - ey * along);
+        let is_nearer = (dx.square() + dy.square()).lt(nx.square() + ny.square());
+        nx = S::select(is_nearer, dx, nx);
+        ny = S::select(is_nearer, dy, ny);
+        let (is_below, ends_above) = (p.y.lt(by), p.y.lt(ay));
+        let is_left = (ey * wx).lt(ex * wy);
+        let crosses = (!is_below & ends_above & is_left) | (is_below & !ends_above & !is_left);
+        side = S::select(crosses, -side, side);
+        (ax, ay) = (bx, by);
+    }
+    side * S::length2(nx, ny)
+}
