@@ -6,10 +6,10 @@ use crate::shape_prelude::*;
 
 /// See [`RepeatPolar::repeat_polar`].
 #[derive(Clone, Copy, Debug)]
-pub struct Ring;
+pub struct Polar;
 
 /// The descriptor of [`RepeatPolar::repeat_polar`].
-pub static REPEAT_POLAR: Shape = Shape::copies::<Ring>();
+pub static REPEAT_POLAR: Shape = Shape::copies::<Polar>();
 
 /// Copies of a shape around an axis.
 pub trait RepeatPolar: Into<Field> {
@@ -23,7 +23,7 @@ pub trait RepeatPolar: Into<Field> {
 
 impl<F: Into<Field>> RepeatPolar for F {}
 
-impl Copies for Ring {
+impl Copies for Polar {
     const ABOUT: About = About {
         name: "repeat_polar",
         summary: "Copies of a shape turned about an axis, and moved along it if they are to follow a helix.",
