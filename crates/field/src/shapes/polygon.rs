@@ -36,7 +36,7 @@ impl Primitive for Polygon {
     fn check(args: &[f64]) -> Result<(), String> {
         let corners: Vec<&[f64]> = args.chunks_exact(2).collect();
         if corners.len() < 3 {
-            return Err("`polygon` needs three corners at least".into());
+            return Err("`polygon` has fewer than three corners".into());
         }
         match (0..corners.len()).find(|&index| corners[index] == corners[(index + 1) % corners.len()]) {
             Some(index) => Err(format!("corner {} of `polygon` and the next one are the same", index + 1)),
