@@ -2,7 +2,7 @@
 //! parts of a form share one function, which gets the place of their constants: the text grows with the number of forms,
 //! not with that of parts.
 
-use crate::helpers::{Base, Helpers, Want};
+use crate::helpers::{Helpers, Want};
 use crate::part::{Part, outline_key};
 use crate::scene::{one, surface_body};
 use crate::tree::{Expr, Function, Item, Operator, Statement, Type};
@@ -29,7 +29,7 @@ pub(crate) fn items(parts: &[Part], kinds: &[usize], plane_count: usize, mut hel
     let mut gradients = Vec::new();
     for (part, &kind) in parts.iter().zip(kinds) {
         if kind == names.len() {
-            let base = if part.is_measured { Base::First } else { Base::At(part.base) };
+            let base = part.shared_base();
             let name = helpers.names.make(&part.source.name);
             values.push(one(part, Want::Value, base, &name, &mut helpers, &mut own));
             gradients.push(one(part, Want::Gradient, base, &name, &mut helpers, &mut own));
@@ -54,7 +54,7 @@ pub(crate) fn items(parts: &[Part], kinds: &[usize], plane_count: usize, mut hel
 
 /// Writes the function of a surface's form, and returns its call.
 fn surface_of(part: &Part, name: &str, helpers: &mut Helpers, own: &mut Vec<Function>) -> Expr {
-    let base = if part.is_measured { Base::First } else { Base::At(part.base) };
+    let base = part.shared_base();
     let region = |index: usize| match index {
         0 => Expr::name("REGIONS") + Expr::name("REGION_SIZE") * Expr::name("part"),
         1 => Expr::name("second"),

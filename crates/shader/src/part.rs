@@ -93,6 +93,11 @@ impl Part {
         self.outline.steps.iter().map(cost).sum()
     }
 
+    /// Where functions that all parts of its form share find its constants: formulas have functions of their own.
+    pub(crate) fn shared_base(&self) -> Base {
+        if self.is_measured { Base::First } else { Base::At(self.base) }
+    }
+
     /// What tells its form apart: parts of the same form differ in their constants only. Formulas have constants of their own
     /// in functions of their own, so that those are parts of a kind.
     pub(crate) fn form(&self, index: usize) -> String {

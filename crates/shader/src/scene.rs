@@ -32,7 +32,7 @@ pub(crate) fn items(parts: &[Part], kinds: &[usize], layout: &Layout, mut helper
     }
     for ((part, name), &kind) in parts.iter().zip(&names).zip(kinds) {
         if kind == gradients.len() {
-            let base = if part.is_measured { Base::First } else { Base::At(part.base) };
+            let base = part.shared_base();
             gradients.push(one(part, Want::Gradient, base, name, &mut helpers, &mut own));
         }
     }

@@ -47,6 +47,9 @@ const BOX_MARGIN: f64 = 1e-3;
 /// Rounding errors of positions on rays, relative to the distance from the origin: eight of single precision.
 const POSITION_ERRORS: f64 = 8.0 * f32::EPSILON as f64;
 
+/// Numbers that a table can hold: places in it are numbers of the table themselves, whole ones up to here in single precision.
+const MOST_NUMBERS: usize = 1 << f32::MANTISSA_DIGITS;
+
 /// Room for lights comes in this many.
 const LIGHTS_AT_ONCE: usize = 4;
 
@@ -87,6 +90,8 @@ pub enum ShaderError {
     Fields(Vec<Diagnostic>),
     /// The scene is not of the form that the shader was made for.
     OtherScene(String),
+    /// The scene has so many numbers that single precision can't count the places of its table.
+    TooLarge(usize),
     /// The text did not pass validation: a mistake of this program.
     Invalid(String),
 }
@@ -111,6 +116,9 @@ impl Shader {
         }
         let formula_count = parts.iter().filter(|part| !part.is_measured).count();
         let layout = Layout::new(parts.len(), formula_count, planes.len(), region_count, constant_count);
+        if layout.lights > MOST_NUMBERS {
+            return Err(ShaderError::TooLarge(layout.lights));
+        }
         parts.iter_mut().for_each(|part| part.base += layout.constants);
 
         let mut names = Names::new();
@@ -414,6 +422,10 @@ impl fmt::Display for ShaderError {
             Self::OtherScene(object) => {
                 write!(f, "the scene differs from the shader's in more than numbers, first at object {object:?}")
             }
+            Self::TooLarge(count) => write!(
+                f,
+                "the scene has {count} numbers, and shaders can count {MOST_NUMBERS}; render on the CPU, or use fewer objects"
+            ),
             Self::Invalid(message) => {
                 write!(f, "the shader did not pass validation, which is a mistake of Freikugel: {message}")
             }
