@@ -27,7 +27,7 @@ pub struct Frames {
 /// What had to be done before the first frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Creation {
-    /// Making the text of the shader and its numbers from the scene.
+    /// Making the text of the shader and its numbers from the scene, and sampling it if it is.
     pub text: Duration,
     /// Making pipelines of the text: reading and checking it, and what the driver does at this point. Some drivers put off the
     /// rest until the first frame.
@@ -37,16 +37,17 @@ pub struct Creation {
 }
 
 impl Frames {
-    /// Makes a scene ready for frames of the size that the options say. Nothing else of them counts.
+    /// Makes a scene ready for frames of the size that the options say. Nothing else of them counts. With a number of voxels, it is
+    /// sampled: see [`GpuRenderer::of_voxels`](crate::GpuRenderer::of_voxels).
     ///
     /// # Errors
     /// If the scene or the size is faulty, or the graphics processor refuses the shader or has no memory for a frame.
-    pub fn new(gpu: &Arc<Gpu>, scene: &Scene, options: &Options) -> Result<Self, DrawError> {
+    pub fn new(gpu: &Arc<Gpu>, scene: &Scene, options: &Options, voxels: Option<u32>) -> Result<Self, DrawError> {
         let frame = Options { crop: None, ..options.clone() }.region()?;
         let mut scene = scene.clone();
         resized(&mut scene, &Options { samples: 1, ..options.clone() });
         let start = Instant::now();
-        let (source, parameters) = Source::new(&scene)?;
+        let (source, parameters) = Source::new(&scene, voxels)?;
         let text = start.elapsed();
         let start = Instant::now();
         let kernel = Kernel::new(gpu, source.text(), (&parameters).into(), View::SIZE)?;

@@ -39,6 +39,8 @@ pub(crate) struct Kernel {
     slice: OnceLock<ComputePipeline>,
     layout: BindGroupLayout,
     parameters: Buffer,
+    /// Samples of the scene, if the shader reads some.
+    voxels: Option<Buffer>,
     view: Buffer,
     tile: Buffer,
     bindings: BindGroup,
@@ -52,11 +54,13 @@ pub(crate) struct Kernel {
 pub(crate) struct Table<'a> {
     pub(crate) numbers: &'a [f32],
     pub(crate) is_uniform: bool,
+    /// Samples of the scene; the shader reads them if there are some.
+    pub(crate) voxels: &'a [[f32; 2]],
 }
 
 impl<'a> From<&'a Parameters> for Table<'a> {
     fn from(parameters: &'a Parameters) -> Self {
-        Self { numbers: parameters.numbers(), is_uniform: parameters.is_uniform() }
+        Self { numbers: parameters.numbers(), is_uniform: parameters.is_uniform(), voxels: parameters.voxels() }
     }
 }
 
@@ -96,7 +100,10 @@ impl Kernel {
     /// If the device refuses it, or its memory does not suffice.
     pub(crate) fn new(gpu: &Arc<Gpu>, text: &str, table: Table<'_>, view_bytes: usize) -> Result<Self, GpuError> {
         let module = gpu.module(text)?;
-        let layout = layout(gpu, &[table.access(), Access::Uniform, Access::Write])?;
+        let voxels = voxel_buffer(gpu, table.voxels)?;
+        let mut accesses = vec![(0, table.access()), (1, Access::Uniform), (2, Access::Write)];
+        accesses.extend(voxels.iter().map(|_| (VOXELS, Access::Read)));
+        let layout = layout_at(gpu, &accesses)?;
         let render = pipeline(gpu, &module, &layout, "render")?;
         let add_layout = self::layout(gpu, &[Access::Uniform, Access::Read, Access::Write])?;
         let adder = gpu.module(include_str!("accumulate.wgsl"))?;
@@ -107,7 +114,7 @@ impl Kernel {
         let view = gpu.buffer("the view", view_bytes as u64, uniform)?;
         let tile = gpu.buffer("a tile's colours", MOST_TILE_PIXELS * PIXEL, BufferUsages::STORAGE)?;
         let place = gpu.buffer("a tile's place", PLACE_BYTES, uniform)?;
-        let bindings = bind(gpu, &layout, &[&parameters, &view, &tile])?;
+        let bindings = drawing(gpu, &layout, [&parameters, &view, &tile], voxels.as_ref())?;
         Ok(Self {
             gpu: Arc::clone(gpu),
             module,
@@ -116,6 +123,7 @@ impl Kernel {
             slice: OnceLock::new(),
             layout,
             parameters,
+            voxels,
             view,
             tile,
             bindings,
@@ -129,6 +137,21 @@ impl Kernel {
     pub(crate) fn set_parameters(&self, numbers: &[f32]) {
         debug_assert!(size_of_val(numbers) as u64 <= self.parameters.size(), "{} numbers", numbers.len());
         self.gpu.queue().write_buffer(&self.parameters, 0, &bytes_of(numbers));
+    }
+
+    /// Takes other numbers and samples for the same shader.
+    ///
+    /// # Errors
+    /// If memory does not suffice for the samples; nothing has changed then.
+    pub(crate) fn set_table(&mut self, table: Table<'_>) -> Result<(), GpuError> {
+        if self.voxels.is_some() {
+            let voxels = voxel_buffer(&self.gpu, table.voxels)?;
+            let own = [&self.parameters, &self.view, &self.tile];
+            self.bindings = drawing(&self.gpu, &self.layout, own, voxels.as_ref())?;
+            self.voxels = voxels;
+        }
+        self.set_parameters(table.numbers);
+        Ok(())
     }
 
     /// Sums for a picture, undefined until the first samples are added.
@@ -201,7 +224,9 @@ impl Kernel {
     /// If the device refuses, or its memory does not suffice.
     pub(crate) fn probe(&self, view: &[u8], points: &[[f32; 3]]) -> Result<Vec<[f32; 4]>, GpuError> {
         let gpu = &self.gpu;
-        let layout = layout_at(gpu, &[(0, self.access), (1, Access::Uniform), (3, Access::Read), (4, Access::Write)])?;
+        let mut accesses = vec![(0, self.access), (1, Access::Uniform), (3, Access::Read), (4, Access::Write)];
+        accesses.extend(self.voxels.iter().map(|_| (VOXELS, Access::Read)));
+        let layout = layout_at(gpu, &accesses)?;
         let pipeline = pipeline(gpu, &self.module, &layout, "probe")?;
         gpu.queue().write_buffer(&self.view, 0, view);
         let mut results = Vec::with_capacity(points.len());
@@ -212,7 +237,9 @@ impl Kernel {
             let bytes = points.len() as u64 * PIXEL;
             let found = gpu.buffer("values", bytes, BufferUsages::STORAGE | BufferUsages::COPY_SRC)?;
             let readable = gpu.buffer("values", bytes, BufferUsages::MAP_READ | BufferUsages::COPY_DST)?;
-            let bindings = bind_at(gpu, &layout, &[(0, &self.parameters), (1, &self.view), (3, &given), (4, &found)])?;
+            let mut buffers = vec![(0, &self.parameters), (1, &self.view), (3, &given), (4, &found)];
+            buffers.extend(self.voxels.iter().map(|voxels| (VOXELS, voxels)));
+            let bindings = bind_at(gpu, &layout, &buffers)?;
             let mut encoder = gpu.device().create_command_encoder(&CommandEncoderDescriptor::default());
             {
                 let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
@@ -245,6 +272,27 @@ impl Sums {
     pub(crate) fn buffer(&self) -> &Buffer {
         &self.buffer
     }
+}
+
+/// The binding of samples.
+const VOXELS: u32 = 5;
+
+/// The buffer of samples, if there are some.
+fn voxel_buffer(gpu: &Gpu, voxels: &[[f32; 2]]) -> Result<Option<Buffer>, GpuError> {
+    let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+    (!voxels.is_empty()).then(|| filled(gpu, "the scene's voxels", voxels.as_flattened(), usage)).transpose()
+}
+
+/// What the shaders that draw are bound to.
+fn drawing(
+    gpu: &Gpu,
+    layout: &BindGroupLayout,
+    [parameters, view, tile]: [&Buffer; 3],
+    voxels: Option<&Buffer>,
+) -> Result<BindGroup, GpuError> {
+    let mut buffers = vec![(0, parameters), (1, view), (2, tile)];
+    buffers.extend(voxels.map(|voxels| (VOXELS, voxels)));
+    bind_at(gpu, layout, &buffers)
 }
 
 /// Bytes of a pixel: four numbers.
@@ -356,7 +404,7 @@ mod tests {
     }
 
     fn table(numbers: &[f32]) -> Table<'_> {
-        Table { numbers, is_uniform: false }
+        Table { numbers, is_uniform: false, voxels: &[] }
     }
 
     fn kernel(parameters: &[f32]) -> Kernel {

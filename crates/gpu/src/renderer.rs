@@ -23,6 +23,7 @@ pub struct GpuRenderer {
     source: Source,
     parameters: Parameters,
     kernel: Kernel,
+    voxels: Option<u32>,
     budget: Duration,
 }
 
@@ -45,9 +46,23 @@ impl GpuRenderer {
     /// # Errors
     /// If it has mistakes, or the graphics processor refuses its shader.
     pub fn new(gpu: &Arc<Gpu>, scene: &Scene) -> Result<Self, DrawError> {
-        let (source, parameters) = Source::new(scene)?;
+        Self::of(gpu, scene, None)
+    }
+
+    /// Samples a scene and compiles a shader that draws samples. All but planes is sampled, with `count` voxels along the longest side
+    /// of its box: edges are rounded by about one of them, and what is thinner than one may have holes; how long a picture takes
+    /// does not depend on what the scene is made of.
+    ///
+    /// # Errors
+    /// As [`GpuRenderer::new`]; or if the scene can't be sampled, or memory does not suffice.
+    pub fn of_voxels(gpu: &Arc<Gpu>, scene: &Scene, count: u32) -> Result<Self, DrawError> {
+        Self::of(gpu, scene, Some(count))
+    }
+
+    fn of(gpu: &Arc<Gpu>, scene: &Scene, voxels: Option<u32>) -> Result<Self, DrawError> {
+        let (source, parameters) = Source::new(scene, voxels)?;
         let kernel = Kernel::new(gpu, source.text(), (&parameters).into(), View::SIZE)?;
-        Ok(Self { scene: scene.clone(), source, parameters, kernel, budget: BUDGET })
+        Ok(Self { scene: scene.clone(), source, parameters, kernel, voxels, budget: BUDGET })
     }
 
     /// Takes another scene. Only if it differs in more than numbers, something is compiled; returns whether that was so. If
@@ -57,17 +72,24 @@ impl GpuRenderer {
     /// As [`GpuRenderer::new`].
     pub fn set_scene(&mut self, scene: &Scene) -> Result<bool, DrawError> {
         if let Ok(parameters) = self.source.parameters(scene) {
+            self.kernel.set_table((&parameters).into())?;
             self.parameters = parameters;
             self.scene = scene.clone();
             return Ok(false);
         }
-        let (source, parameters) = Source::new(scene)?;
+        let (source, parameters) = Source::new(scene, self.voxels)?;
         if source.text() != self.source.text() {
-            *self = Self { budget: self.budget, ..Self::new(self.kernel.gpu(), scene)? };
+            *self = Self { budget: self.budget, ..Self::of(self.kernel.gpu(), scene, self.voxels)? };
             return Ok(true);
         }
+        self.kernel.set_table((&parameters).into())?;
         (self.source, self.parameters, self.scene) = (source, parameters, scene.clone());
         Ok(false)
+    }
+
+    /// The bytes that samples of the scene take.
+    pub fn voxel_bytes(&self) -> usize {
+        size_of_val(self.parameters.voxels())
     }
 
     /// Gives each dispatch another time than [`BUDGET`].

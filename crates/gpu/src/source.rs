@@ -42,12 +42,16 @@ pub(crate) struct TileView {
 }
 
 impl Source {
-    /// The shader of a scene, and the scene's numbers for a picture of the size that the scene asks for.
+    /// The shader of a scene, and the scene's numbers for a picture of the size that the scene asks for. With a number of voxels,
+    /// all but planes is sampled, and that is how many there are along the longest side.
     ///
     /// # Errors
-    /// If the scene has mistakes.
-    pub(crate) fn new(scene: &Scene) -> Result<(Self, Parameters), ShaderError> {
-        let shader = Shader::new(scene)?;
+    /// If the scene has mistakes, or can't be sampled.
+    pub(crate) fn new(scene: &Scene, voxels: Option<u32>) -> Result<(Self, Parameters), ShaderError> {
+        let shader = match voxels {
+            None => Shader::new(scene)?,
+            Some(count) => Shader::of_voxels(scene, count)?,
+        };
         let parameters = shader.parameters(scene)?;
         let text = shader.text(Target::Wgsl, &parameters)? + SLICE;
         Ok((Self { shader, text }, parameters))

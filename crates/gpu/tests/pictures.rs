@@ -150,7 +150,7 @@ fn frames_are_the_pictures_of_their_cameras() {
     let gpu = common::gpu();
     let (_, mut scene) = common::scenes().into_iter().find(|(name, _)| name == "gpu/room").expect("there");
     let options = Options { samples: 1, ..options(&scene) };
-    let mut frames = Frames::new(&gpu, &scene, &options).expect("a shader");
+    let mut frames = Frames::new(&gpu, &scene, &options, None).expect("a shader");
     let before = gpu.pipelines();
     let mut camera = scene.camera.clone().expect("it has one");
     for draws_at_once in [false, true, true] {
@@ -163,4 +163,65 @@ fn frames_are_the_pictures_of_their_cameras() {
     let expected = render(&scene, &options, &()).expect("a picture").image;
     let Difference { mean, .. } = difference(&expected, &frames.read().expect("pixels"), &Tone::of(&scene.picture));
     assert!(mean < MEAN, "{mean}");
+}
+
+/// How much a picture of `scenes/gpu/voxels.json` made with some voxels along its longest side may differ from the scene itself.
+const VOXELS: [(u32, f64); 3] = [(50, 2.0), (100, 1.0), (200, 0.5)];
+
+#[test]
+fn more_voxels_come_nearer_to_the_scene() {
+    let gpu = common::gpu();
+    let (_, scene) = common::scenes().into_iter().find(|(name, _)| name == "gpu/voxels").expect("there");
+    let options = options(&scene);
+    let expected = render(&scene, &options, &()).expect("a picture").image;
+    for (count, most) in VOXELS {
+        let mut renderer = GpuRenderer::of_voxels(&gpu, &scene, count).expect("a shader");
+        let found = renderer.render(&options, &()).expect("a picture");
+        let difference = difference(&expected, &found.image, &Tone::of(&scene.picture));
+        println!("{count} voxels, {} bytes: {difference}", renderer.voxel_bytes());
+        assert!(difference.mean < most, "{count} voxels: {difference}");
+        assert_eq!(found.stats.unresolved.camera, 0, "{count} voxels");
+    }
+}
+
+#[test]
+fn voxels_of_a_changed_scene_show() {
+    let gpu = common::gpu();
+    let (_, mut scene) = common::scenes().into_iter().find(|(name, _)| name == "gpu/voxels").expect("there");
+    let options = options(&scene);
+    let mut renderer = GpuRenderer::of_voxels(&gpu, &scene, 64).expect("a shader");
+    let before = gpu.pipelines();
+    // Another shape has another number of samples, and the same shader.
+    let other = common::scene(
+        r#"{ "version": 1, "objects": [{ "shape": { "torus": { "major": 1, "minor": 0.3 } } }] }"#,
+        "other",
+    );
+    scene.objects[1].shape = other.objects[0].shape.clone();
+    assert!(!renderer.set_scene(&scene).expect("the same shader"), "something was compiled");
+    let found = renderer.render(&options, &()).expect("a picture").image;
+    assert_eq!(gpu.pipelines(), before, "a pipeline was created");
+    let expected = render(&scene, &options, &()).expect("a picture").image;
+    let difference = difference(&expected, &found, &Tone::of(&scene.picture));
+    assert!(difference.mean < 2.0, "{difference}");
+}
+
+#[test]
+fn layers_of_voxels_agree_but_for_a_voxel() {
+    let gpu = common::gpu();
+    let (_, scene) = common::scenes().into_iter().find(|(name, _)| name == "gpu/voxels").expect("there");
+    let options = options(&scene);
+    let (expected, _) = Renderer::new(&scene).expect("a scene").layers(&options, &()).expect("layers");
+    let count = 100;
+    let found = GpuRenderer::of_voxels(&gpu, &scene, count).expect("a shader").layers(&options, &()).expect("layers");
+    let voxel = 3.0 / f64::from(count);
+    let (mut same, mut near) = (0, 0);
+    for (expected, found) in expected.pixels().iter().zip(found.pixels()).filter(|(pixel, _)| pixel.object.is_some()) {
+        let cosine: f32 = expected.normal.iter().zip(found.normal).map(|(a, b)| a * b).sum();
+        same += usize::from(expected.object == found.object);
+        near += usize::from(f64::from((expected.distance - found.distance).abs()) < voxel && cosine > 0.95);
+    }
+    let all = expected.pixels().iter().filter(|pixel| pixel.object.is_some()).count();
+    // Borders are off by a voxel, which is about a pixel.
+    assert!(same as f64 > 0.97 * all as f64, "{same} of {all}");
+    assert!(near as f64 > 0.9 * all as f64, "{near} of {all}");
 }

@@ -120,6 +120,16 @@ impl Bricks {
         self.values.len() / SAMPLES.pow(3) as usize
     }
 
+    /// For each brick, by [`Lattice::number`], the value in its middle, and its number among those with fine samples.
+    pub fn coarse(&self) -> impl Iterator<Item = (f32, Option<u32>)> {
+        self.middles.iter().zip(&self.slots).map(|(&middle, &slot)| (middle, (slot != EMPTY).then_some(slot)))
+    }
+
+    /// The values and labels of all fine samples, [`SAMPLES`] cubed for each brick that has some; x counts fastest, then y.
+    pub fn fine(&self) -> impl Iterator<Item = (f32, u32)> {
+        self.values.iter().copied().zip(self.labels.iter().copied())
+    }
+
     /// The bytes that all samples take.
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.middles)

@@ -40,6 +40,9 @@ pub(crate) const PART_SIZE: usize = 12;
 /// Numbers of a part that is one of many: the form of its surface, or -1 if it is of one region, and the place of the second
 /// of its regions.
 pub(crate) const SURFACE_SIZE: usize = 2;
+/// Numbers of a sampled scene: the least corner of its box, the edge of a voxel, how many bricks there are along each axis, and in
+/// all, which is where fine samples begin in their table.
+pub(crate) const VOXELS_SIZE: usize = 8;
 /// Numbers of a plane: normal, offset, whether it is a sheet, and the slope of its field.
 pub(crate) const PLANE_SIZE: usize = 6;
 /// Numbers of a region: two colours, the size of the pattern (0 for none) and its phase, emitted light, shares of ambient,
@@ -66,6 +69,8 @@ pub(crate) struct Layout {
     pub(crate) node_count: usize,
     /// What is known of the surfaces of parts, if they are many.
     pub(crate) surfaces: usize,
+    /// Where samples are, if there are some.
+    pub(crate) voxels: usize,
     pub(crate) planes: usize,
     pub(crate) plane_count: usize,
     pub(crate) regions: usize,
@@ -73,14 +78,21 @@ pub(crate) struct Layout {
     pub(crate) lights: usize,
 }
 
+/// How much of everything a scene has.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Counts {
+    pub(crate) parts: usize,
+    pub(crate) formulas: usize,
+    pub(crate) planes: usize,
+    pub(crate) regions: usize,
+    pub(crate) constants: usize,
+    /// Whether its only part are samples.
+    pub(crate) is_sampled: bool,
+}
+
 impl Layout {
-    pub(crate) fn new(
-        part_count: usize,
-        formula_count: usize,
-        plane_count: usize,
-        region_count: usize,
-        constant_count: usize,
-    ) -> Self {
+    pub(crate) fn new(counts: &Counts) -> Self {
+        let Counts { parts: part_count, formulas: formula_count, planes: plane_count, .. } = *counts;
         let parts: usize = HEADER.iter().map(|(_, count)| count).sum();
         // Nodes are aligned, so that vectors of four hold what belongs together.
         let (nodes, node_count, surface_count) = match parts + PART_SIZE * part_count {
@@ -88,11 +100,12 @@ impl Layout {
             end => (end.next_multiple_of(4), hierarchy::node_count(part_count), part_count),
         };
         let surfaces = nodes + NODE_SIZE * node_count;
-        let planes = surfaces + SURFACE_SIZE * surface_count;
+        let voxels = surfaces + SURFACE_SIZE * surface_count;
+        let planes = voxels + if counts.is_sampled { VOXELS_SIZE } else { 0 };
         let regions = planes + PLANE_SIZE * plane_count;
         // Aligned, so that vectors of four hold what belongs together more often.
-        let constants = (regions + REGION_SIZE * region_count).next_multiple_of(4);
-        let lights = (constants + constant_count).next_multiple_of(4);
+        let constants = (regions + REGION_SIZE * counts.regions).next_multiple_of(4);
+        let lights = (constants + counts.constants).next_multiple_of(4);
         Self {
             parts,
             part_count,
@@ -100,6 +113,7 @@ impl Layout {
             nodes,
             node_count,
             surfaces,
+            voxels,
             planes,
             plane_count,
             regions,
@@ -131,6 +145,9 @@ impl Layout {
             ("NODES_END", self.nodes + NODE_SIZE * self.node_count),
             ("SURFACES", self.surfaces),
             ("SURFACE_SIZE", SURFACE_SIZE),
+            ("VOXELS", self.voxels),
+            ("CELLS", freikugel_grid::CELLS as usize),
+            ("SAMPLES", freikugel_grid::SAMPLES as usize),
             ("PLANES", self.planes),
             ("PLANE_SIZE", PLANE_SIZE),
             ("PLANE_COUNT", self.plane_count),

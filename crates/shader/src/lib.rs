@@ -33,6 +33,7 @@
 //! | 2 | `output` | `array<vec4<f32>>`, storage, read and write: one entry for each pixel of the tile, row by row |
 //! | 3 | `points` | `array<vec4<f32>>`, storage, read |
 //! | 4 | `results` | `array<vec4<f32>>`, storage, read and write |
+//! | 5 | `voxels` | only of [`Shader::of_voxels`]: `array<vec2<f32>>`, storage, read: [`Parameters::voxels`] |
 //!
 //! | entry point | does |
 //! |---|---|
@@ -50,11 +51,15 @@
 //! library, written in a part of WGSL, read into the same [form](tree) as the formulas, and printed from there in each
 //! language. What a formula has no scale for is marched by a bound of its slope, which is a parameter.
 //!
+//! [`Shader::of_voxels`] samples all that is marched instead: its text does not depend on shapes at all, and a ray takes as long
+//! whatever the shapes cost.
+//!
 //! No threads, files or clocks: this crate runs in a browser.
 
 #![forbid(unsafe_code)]
 
 mod curvature;
+mod fill;
 mod formula;
 pub mod glsl;
 mod helpers;
@@ -67,6 +72,7 @@ mod numbers;
 pub mod parse;
 mod part;
 mod print;
+mod sampled;
 mod scene;
 mod shader;
 mod target;
@@ -74,6 +80,7 @@ pub mod tree;
 mod view;
 pub mod wgsl;
 
+pub use sampled::{SampleError, sample};
 pub use shader::{Parameters, Shader, ShaderError};
-pub use target::{MOST_UNIFORM_BYTES, TEXTURE_WIDTH, Target};
+pub use target::{MOST_UNIFORM_BYTES, TEXTURE_WIDTH, Target, VOXELS_WIDTH};
 pub use view::{Show, View};

@@ -1,6 +1,7 @@
 //! The shells around the common text: what each language and host wants of a shader.
 
 use crate::glsl::{BLOCK_VECTORS, Table};
+use crate::sampled::SampleError;
 use crate::shader::{Parameters, Shader, ShaderError};
 use crate::{glsl, wgsl};
 use std::fmt::Write;
@@ -54,6 +55,9 @@ const MOST_BLOCKS: usize = 12;
 /// Vectors in a row of the texture that holds larger tables.
 pub const TEXTURE_WIDTH: usize = 256;
 
+/// Samples in a row of the texture that holds those of a scene in WebGL 2: what each device has room for.
+pub const VOXELS_WIDTH: usize = 2048;
+
 impl Shader {
     /// The text for a target. Only that for Shadertoy depends on the numbers; its host has no place for them outside the text.
     /// Those for WGSL and MSL keep up to [`MOST_UNIFORM_BYTES`] as uniforms, more in a storage buffer.
@@ -61,7 +65,7 @@ impl Shader {
     /// blocks of uniforms, more in a texture.
     ///
     /// # Errors
-    /// If the text does not pass validation, which would be a mistake of this crate.
+    /// If the host has no place for samples, or the text does not pass validation, which would be a mistake of this crate.
     pub fn text(&self, target: Target, parameters: &Parameters) -> Result<String, ShaderError> {
         match target {
             Target::Wgsl => {
@@ -70,6 +74,7 @@ impl Shader {
                 Ok(text)
             }
             Target::Glsl => Ok(self.webgl(parameters)),
+            Target::Shadertoy if self.is_sampled() => Err(SampleError::Host("Shadertoy").into()),
             Target::Shadertoy => Ok(self.shadertoy(parameters)),
             Target::Hlsl => self.hlsl(parameters),
             Target::Msl => self.msl(parameters),
@@ -87,6 +92,9 @@ impl Shader {
              fn parameter(place: i32) -> f32 {{\n    return parameters[place >> 2u][place & 3];\n}}\n\n\
              fn quad(place: i32) -> vec4<f32> {{\n    return parameters[place >> 2u];\n}}\n\n"
         );
+        if self.is_sampled() {
+            text.push_str(WGSL_SAMPLES);
+        }
         text.push_str(&wgsl::items(self.items()));
         text.push_str(shell);
         text
@@ -104,6 +112,9 @@ impl Shader {
         text.push_str(GLSL_VIEW);
         text.push_str("uniform View view;\n\n");
         text.push_str(&webgl_table(table, count));
+        if self.is_sampled() {
+            text.push_str(&webgl_samples());
+        }
         text.push_str(&glsl::items(self.items(), table));
         text.push_str(WEBGL_SHELL);
         text
@@ -186,6 +197,15 @@ fn webgl_table(table: Table, count: usize) -> String {
     }
 }
 
+/// How a shader for WebGL 2 reads samples.
+fn webgl_samples() -> String {
+    format!(
+        "// Samples in rows of {VOXELS_WIDTH}, in the red and the green channel.\nprecision highp sampler2D;\nuniform sampler2D voxels;\n\n\
+         vec2 voxel(int place) {{\n    \
+         return texelFetch(voxels, ivec2(place % {VOXELS_WIDTH}, place / {VOXELS_WIDTH}), 0).xy;\n}}\n\n"
+    )
+}
+
 /// A module that an independent judge accepts.
 pub(crate) fn validated(text: &str) -> Result<(naga::Module, naga::valid::ModuleInfo), ShaderError> {
     let module =
@@ -198,6 +218,15 @@ pub(crate) fn validated(text: &str) -> Result<(naga::Module, naga::valid::Module
 }
 
 const WGSL_HEAD: &str = include_str!("shells/head.wgsl");
+const WGSL_SAMPLES: &str = "\
+// Samples of the scene: values, each with a number.
+@group(0) @binding(5) var<storage, read> voxels: array<vec2<f32>>;
+
+fn voxel(place: i32) -> vec2<f32> {
+    return voxels[place];
+}
+
+";
 const WGSL_SHELL: &str = include_str!("shells/entries.wgsl");
 const UNITY_SHELL: &str = include_str!("shells/unity.wgsl");
 const UNITY_HEAD: &str = include_str!("shells/unity_head.hlsl");

@@ -12,7 +12,7 @@ use common::{read, scene, scene_of};
 use freikugel_render::{Options, Tone, render};
 use freikugel_scene::{Light, Scene, Sun};
 use freikugel_shader::glsl::BLOCK_VECTORS;
-use freikugel_shader::{Parameters, Shader, TEXTURE_WIDTH, Target};
+use freikugel_shader::{Parameters, Shader, TEXTURE_WIDTH, Target, VOXELS_WIDTH};
 use glam::{DMat3, DVec3};
 use judge::Difference;
 use std::collections::HashMap;
@@ -48,12 +48,18 @@ const BLENDED: usize = 100;
 /// Lights of the scene that is too large even for blocks of uniforms.
 const MANY_LIGHTS: usize = 3000;
 
+/// Voxels along the longest side of the scene that is sampled, and how much its picture may differ on the mean.
+const VOXELS: u32 = 100;
+const MEAN_OF_VOXELS: f64 = 1.0;
+
 /// A picture for the browser, and what it has to look like.
 struct Job {
     name: String,
     target: Target,
     text: String,
     table: Vec<f32>,
+    /// Samples of the scene, if it is drawn by these.
+    voxels: Vec<[f32; 2]>,
     /// Shadertoy's `iMouse`.
     mouse: [f32; 4],
     /// The scene as the browser should show it, and the processor's picture of it.
@@ -83,11 +89,29 @@ fn jobs(name: &str, scene: Scene) -> Vec<Job> {
         target,
         text: text(&shader, target, &parameters),
         table: parameters.numbers().to_vec(),
+        voxels: Vec::new(),
         mouse: [0.0; 4],
         scene: scene.clone(),
         expected: expected.clone(),
     };
     [(Target::Glsl, "webgl"), (Target::Shadertoy, "shadertoy")].map(job).into()
+}
+
+/// A scene by its samples.
+fn sampled(name: &str, scene: Scene) -> Job {
+    let scene = sized(scene);
+    let shader = Shader::of_voxels(&scene, VOXELS).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let parameters = shader.parameters(&scene).unwrap_or_else(|error| panic!("{name}: {error}"));
+    Job {
+        name: name.to_owned(),
+        target: Target::Glsl,
+        text: text(&shader, Target::Glsl, &parameters),
+        table: parameters.numbers().to_vec(),
+        voxels: parameters.voxels().to_vec(),
+        mouse: [0.0; 4],
+        expected: on_cpu(&scene),
+        scene,
+    }
 }
 
 fn text(shader: &Shader, target: Target, parameters: &Parameters) -> String {
@@ -155,6 +179,7 @@ fn dragged(name: &str, scene: Scene, mouse: f32) -> Job {
         target: Target::Shadertoy,
         text: text(&shader, Target::Shadertoy, &parameters),
         table: Vec::new(),
+        voxels: Vec::new(),
         mouse: [place[0], place[1], place[0], place[1]],
         expected: on_cpu(&turned),
         scene: turned,
@@ -167,16 +192,18 @@ fn draw(jobs: &[Job]) -> (PathBuf, HashMap<String, String>) {
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).expect("a folder for pictures");
     let mut list = Vec::new();
-    for Job { name, target, text, table, mouse, .. } in jobs {
+    for Job { name, target, text, table, voxels, mouse, .. } in jobs {
         let write = |ending: &str, bytes: &[u8]| {
             std::fs::write(folder.join(format!("{name}.{ending}")), bytes).expect("a file for the browser");
         };
         write("glsl", text.as_bytes());
-        write("f32", &table.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>());
+        for (ending, numbers) in [("f32", &**table), ("voxels", voxels.as_flattened())] {
+            write(ending, &numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>());
+        }
         let kind = if *target == Target::Shadertoy { "shadertoy" } else { "webgl" };
         let [width, height] = SIZE;
         list.push(format!(
-            r#"{{ "name": "{name}", "kind": "{kind}", "width": {width}, "height": {height}, "blockVectors": {BLOCK_VECTORS}, "textureWidth": {TEXTURE_WIDTH}, "mouse": {mouse:?} }}"#
+            r#"{{ "name": "{name}", "kind": "{kind}", "width": {width}, "height": {height}, "blockVectors": {BLOCK_VECTORS}, "textureWidth": {TEXTURE_WIDTH}, "voxelsWidth": {VOXELS_WIDTH}, "mouse": {mouse:?} }}"#
         ));
     }
     std::fs::write(folder.join("jobs.json"), format!("[{}]", list.join(",\n"))).expect("a list for the browser");
@@ -206,15 +233,20 @@ fn browsers_draw_what_the_processor_draws() {
     // To the middle, which is where the camera is; and a quarter turn.
     all.push(dragged("drag-middle", file("first-light"), 0.5));
     all.push(dragged("drag-quarter", file("first-light"), 0.25));
+    all.push(sampled("voxels", file("gpu/voxels")));
 
     let (folder, said) = draw(&all);
     let mut faults = Vec::new();
-    for Job { name, scene, expected, .. } in &all {
+    for Job { name, scene, expected, voxels, .. } in &all {
         let found = std::fs::read(folder.join(format!("{name}.rgb"))).unwrap_or_else(|error| panic!("{name}: {error}"));
         let difference = Difference::of(&found, expected);
         let summary = format!("{name}: {difference}");
         println!("{summary}; {}", said[name].replace('\t', ", "));
-        if difference.is_too_large(scene, expected, on_cpu) {
+        let is_too_large = match voxels.is_empty() {
+            true => difference.is_too_large(scene, expected, on_cpu),
+            false => difference.mean > MEAN_OF_VOXELS,
+        };
+        if is_too_large {
             faults.push(summary);
         }
     }

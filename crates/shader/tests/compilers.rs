@@ -30,6 +30,10 @@ fn compile(text: &str, ending: &str, options: &[&str], folder: &Path) -> Result<
 
 fn check(scene: &Scene, name: &str, folder: &Path) {
     let shader = Shader::new(scene).unwrap_or_else(|error| panic!("{name}: {error}"));
+    check_text(&shader, scene, name, folder);
+}
+
+fn check_text(shader: &Shader, scene: &Scene, name: &str, folder: &Path) {
     let parameters = shader.parameters(scene).unwrap_or_else(|error| panic!("{name}: {error}"));
     for (target, ending, options) in LANGUAGES {
         let text = shader.text(target, &parameters).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -49,6 +53,8 @@ fn the_reference_compiler_takes_all_texts() {
     for shape in shapes::ALL {
         check(&scene_of(shape.about.example), shape.about.name, &folder);
     }
+    let scene = scene_of(shapes::SPHERE.about.example);
+    check_text(&Shader::of_voxels(&scene, 50).expect("a shader"), &scene, "voxels", &folder);
     for file in scene_files() {
         check(&read(&file), &file.display().to_string(), &folder);
     }

@@ -23,7 +23,7 @@ fn changed(field: &Field, factor: f64) -> Field {
         let range = node.shape.range(index, args.len());
         match param.kind {
             // These shape the steps.
-            ParamKind::Count(..) | ParamKind::Choice(_) | ParamKind::Flag => {}
+            ParamKind::Count(..) | ParamKind::Counts(..) | ParamKind::Choice(_) | ParamKind::Flag => {}
             ParamKind::Region => args[range.start + 1..range.end].iter_mut().for_each(|arg| *arg *= factor),
             _ => args[range].iter_mut().for_each(|arg| *arg *= factor),
         }

@@ -4,7 +4,7 @@ mod common;
 #[path = "../../field/tests/common/mod.rs"]
 mod fields;
 
-use common::{read, scene_files, scene_of};
+use common::{read, scene, scene_files, scene_of};
 use freikugel_field::shapes::{self, Extrude};
 use freikugel_field::{Dimension, analyse};
 use freikugel_scene::Scene;
@@ -23,6 +23,20 @@ fn check(scene: &Scene, name: &str) {
 fn all_shapes_become_valid_shaders() {
     for shape in shapes::ALL {
         check(&scene_of(shape.about.example), shape.about.name);
+    }
+}
+
+#[test]
+fn samples_become_valid_shaders() {
+    let on_plane =
+        r#"{ "version": 1, "objects": [{ "shape": { "plane": {} } }, { "shape": { "sphere": { "radius": 1 } } }] }"#;
+    for scene in [scene_of(r#"{ "sphere": { "radius": 1 } }"#), scene(on_plane, "on a plane")] {
+        let shader = Shader::of_voxels(&scene, 50).expect("a shader");
+        let parameters = shader.parameters(&scene).expect("numbers");
+        for (target, _) in Target::ALL.into_iter().filter(|(target, _)| *target != Target::Shadertoy) {
+            let text = shader.text(target, &parameters).unwrap_or_else(|error| panic!("{target:?}: {error}"));
+            assert!(text.contains("voxel"), "{target:?}");
+        }
     }
 }
 

@@ -39,6 +39,10 @@ pub(super) struct Arguments {
     /// Leave the CPU out.
     #[arg(long, requires = "gpu")]
     no_cpu: bool,
+    /// Sample everything but planes of the scenes, with this many voxels along the longest side, and draw the samples. The CPU is left
+    /// out then.
+    #[arg(long, value_name = "COUNT", requires = "gpu")]
+    voxels: Option<u32>,
     /// Only scenes whose name contains this.
     #[arg(long, value_name = "NAME", default_value = "")]
     filter: String,
@@ -66,16 +70,26 @@ const PRACTICE: u32 = 3;
 const SWING: f64 = 4.0 * std::f64::consts::PI / 180.0;
 const PERIOD: f64 = 48.0;
 
-/// The scenes that come with the program. The last ones were written by `freikugel-bench scene COUNT --kind mixed --lit`.
-const SCENES: [(&str, &str); 8] = [
-    ("box", include_str!("../../../../scenes/gpu/box.json")),
-    ("columns with bowls", include_str!("../../../../scenes/sources/column-with-bowl.json")),
-    ("Mandelbulb", include_str!("../../../../scenes/gpu/mandelbulb.json")),
-    ("room, without indirect light", include_str!("../../../../scenes/gpu/room.json")),
-    ("10 primitives", include_str!("../../../../scenes/gpu/primitives-10.json")),
-    ("20 primitives", include_str!("../../../../scenes/gpu/primitives-20.json")),
-    ("100 primitives", include_str!("../../../../scenes/gpu/primitives-100.json")),
-    ("300 primitives", include_str!("../../../../scenes/gpu/primitives-300.json")),
+/// A scene of the measurements.
+struct Measurement {
+    name: String,
+    scene: Scene,
+    /// How many voxels there are along the longest side, if it is sampled.
+    voxels: Option<u32>,
+}
+
+/// The scenes that come with the program, with a number of voxels for those that are sampled. The last ones were written by
+/// `freikugel-bench scene COUNT --kind mixed --lit`.
+const SCENES: [(&str, &str, Option<u32>); 9] = [
+    ("box", include_str!("../../../../scenes/gpu/box.json"), None),
+    ("columns with bowls", include_str!("../../../../scenes/sources/column-with-bowl.json"), None),
+    ("Mandelbulb", include_str!("../../../../scenes/gpu/mandelbulb.json"), None),
+    ("room, without indirect light", include_str!("../../../../scenes/gpu/room.json"), None),
+    ("50^3 voxels", include_str!("../../../../scenes/gpu/voxels.json"), Some(50)),
+    ("10 primitives", include_str!("../../../../scenes/gpu/primitives-10.json"), None),
+    ("20 primitives", include_str!("../../../../scenes/gpu/primitives-20.json"), None),
+    ("100 primitives", include_str!("../../../../scenes/gpu/primitives-100.json"), None),
+    ("300 primitives", include_str!("../../../../scenes/gpu/primitives-300.json"), None),
 ];
 
 fn parse_seconds(text: &str) -> Result<f64, String> {
@@ -87,10 +101,10 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
 
 /// Measures, and prints the table line by line.
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let scenes = scenes(&arguments.scenes)?;
-    let wanted: Vec<&(String, Scene)> = scenes.iter().filter(|(name, _)| name.contains(&arguments.filter)).collect();
+    let scenes = scenes(&arguments.scenes, arguments.voxels)?;
+    let wanted: Vec<&Measurement> = scenes.iter().filter(|scene| scene.name.contains(&arguments.filter)).collect();
     if wanted.is_empty() {
-        let names: Vec<&str> = scenes.iter().map(|(name, _)| name.as_str()).collect();
+        let names: Vec<&str> = scenes.iter().map(|scene| scene.name.as_str()).collect();
         return Err(Failure::Usage(format!("no scene has {:?} in its name: {}", arguments.filter, names.join(", "))));
     }
     let [width, height] = SIZE;
@@ -110,7 +124,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         simd::name(simd::best())
     ))?;
     let mut rows = Vec::new();
-    for (name, scene) in wanted {
+    for Measurement { name, scene, voxels } in wanted {
         let length = Length { frames: arguments.frames, seconds: arguments.seconds };
         let mut add = |row: Row| {
             print(&row.markdown())?;
@@ -118,9 +132,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             Ok(())
         };
         if let Some(processor) = &processor {
-            add(processor.measure(name, scene, &options, length, &watch)?)?;
+            add(processor.measure(name, scene, &options, *voxels, length, &watch)?)?;
         }
-        if !arguments.no_cpu {
+        // The CPU draws scenes themselves.
+        if !arguments.no_cpu && voxels.is_none() {
             add(on_cpu(name, &cpu, scene, &options, length, &watch)?)?;
         }
     }
@@ -133,9 +148,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The scenes of some files with their names, or those that come with the program.
-fn scenes(files: &[PathBuf]) -> Result<Vec<(String, Scene)>, Failure> {
-    let own = |(name, text): &(&str, &str)| input::parsed(text, name).map(|scene| ((*name).to_owned(), scene));
-    let read = |path: &PathBuf| input::scene(path).map(|scene| (input::name(path), scene));
+fn scenes(files: &[PathBuf], voxels: Option<u32>) -> Result<Vec<Measurement>, Failure> {
+    let own = |&(name, text, own): &(&str, &str, Option<u32>)| {
+        let scene = input::parsed(text, name)?;
+        Ok(Measurement { name: name.to_owned(), scene, voxels: voxels.or(own) })
+    };
+    let read = |path: &PathBuf| Ok(Measurement { name: input::name(path), scene: input::scene(path)?, voxels });
     if files.is_empty() { SCENES.iter().map(own).collect() } else { files.iter().map(read).collect() }
 }
 

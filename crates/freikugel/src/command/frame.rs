@@ -61,6 +61,14 @@ enum Quality {
     Fine,
 }
 
+/// Samples of a scene instead of the scene itself.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(super) struct Voxels {
+    /// Sample everything but planes, with this many voxels along the longest side, and draw the samples.
+    #[arg(id = "voxels", long = "voxels", value_name = "COUNT")]
+    pub(super) count: Option<u32>,
+}
+
 impl Samples {
     /// The options with what was asked for.
     pub(super) fn over(&self, mut options: Options) -> Options {

@@ -17,6 +17,15 @@ pub(super) enum Backend {
     Auto,
 }
 
+/// How a graphics processor draws.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct How<'a> {
+    /// A part of its name; the best one by default.
+    pub(super) adapter: Option<&'a str>,
+    /// How many voxels there are along the longest side, if the scene is to be sampled.
+    pub(super) voxels: Option<u32>,
+}
+
 /// A picture, and what computed it, if that is of interest.
 pub(super) type Made = (Rendered, Option<String>);
 
@@ -29,7 +38,7 @@ pub(super) use without::{Processor, list, missing, render, render_if_able};
 #[cfg(feature = "gpu")]
 mod with {
     use super::super::bench::{Length, Row, measured, swinging};
-    use super::{Failure, Made, Options, Scene, Watch};
+    use super::{Failure, How, Made, Options, Scene, Watch};
     use freikugel::gpu::{AdapterError, Choice, DrawError, Frames, Gpu, GpuRenderer, adapters};
     use freikugel::render::Renderer;
     use std::sync::Arc;
@@ -52,12 +61,13 @@ mod with {
             name: &str,
             scene: &Scene,
             options: &Options,
+            voxels: Option<u32>,
             length: Length,
             watch: &Watch,
         ) -> Result<Row, Failure> {
             let camera = Renderer::new(scene).map(|renderer| renderer.camera(options.width, options.height));
             let camera = camera.map_err(|error| Failure::Input(format!("{name}: {error}")))?;
-            let mut frames = Frames::new(&self.gpu, scene, options).map_err(failure)?;
+            let mut frames = Frames::new(&self.gpu, scene, options, voxels).map_err(failure)?;
             let measured = measured(length, watch, |number, is_practice| {
                 let camera = swinging(&camera, number);
                 let time = if is_practice { frames.practise(&camera) } else { frames.draw(&camera) };
@@ -86,11 +96,11 @@ mod with {
     pub(in super::super) fn render(
         scene: &Scene,
         options: &Options,
-        adapter: Option<&str>,
+        how: How<'_>,
         watch: &Watch,
     ) -> Result<Made, Failure> {
-        let gpu = Gpu::open(&choice(adapter)).map_err(|error| Failure::Input(error.to_string()))?;
-        draw(&Arc::new(gpu), scene, options, watch).map_err(failure)
+        let gpu = Gpu::open(&choice(how.adapter)).map_err(|error| Failure::Input(error.to_string()))?;
+        draw(&Arc::new(gpu), scene, options, how, watch).map_err(failure)
     }
 
     /// Renders with a graphics processor if there is one that is no software, unless it was named, and it can draw the scene.
@@ -100,22 +110,29 @@ mod with {
     pub(in super::super) fn render_if_able(
         scene: &Scene,
         options: &Options,
-        adapter: Option<&str>,
+        how: How<'_>,
         watch: &Watch,
     ) -> Result<Result<Made, Failure>, String> {
-        let gpu = Gpu::open(&choice(adapter)).map_err(|error| error.to_string())?;
-        if gpu.summary().is_software() && adapter.is_none() {
+        let gpu = Gpu::open(&choice(how.adapter)).map_err(|error| error.to_string())?;
+        if gpu.summary().is_software() && how.adapter.is_none() {
             return Err(format!("{} is software", gpu.summary().name));
         }
-        match draw(&Arc::new(gpu), scene, options, watch) {
+        match draw(&Arc::new(gpu), scene, options, how, watch) {
             Err(error @ (DrawError::Shader(_) | DrawError::Gpu(_))) => Err(error.to_string()),
             drawn => Ok(drawn.map_err(failure)),
         }
     }
 
-    fn draw(gpu: &Arc<Gpu>, scene: &Scene, options: &Options, watch: &Watch) -> Result<Made, DrawError> {
-        let rendered = GpuRenderer::new(gpu, scene)?.render(options, watch)?;
-        Ok((rendered, Some(gpu.summary().to_string())))
+    fn draw(gpu: &Arc<Gpu>, scene: &Scene, options: &Options, how: How<'_>, watch: &Watch) -> Result<Made, DrawError> {
+        let mut by = gpu.summary().to_string();
+        let mut renderer = match how.voxels {
+            None => GpuRenderer::new(gpu, scene)?,
+            Some(count) => GpuRenderer::of_voxels(gpu, scene, count)?,
+        };
+        if how.voxels.is_some() {
+            by.push_str(&format!("; voxels take {:.1} MB", renderer.voxel_bytes() as f64 / 1e6));
+        }
+        Ok((renderer.render(options, watch)?, Some(by)))
     }
 
     fn failure(error: DrawError) -> Failure {
@@ -130,7 +147,7 @@ mod with {
 #[cfg(not(feature = "gpu"))]
 mod without {
     use super::super::bench::{Length, Row};
-    use super::{Failure, Made, Options, Scene, Watch};
+    use super::{Failure, How, Made, Options, Scene, Watch};
 
     /// There is none.
     pub(in super::super) enum Processor {}
@@ -145,6 +162,7 @@ mod without {
             _: &str,
             _: &Scene,
             _: &Options,
+            _: Option<u32>,
             _: Length,
             _: &Watch,
         ) -> Result<Row, Failure> {
@@ -166,14 +184,14 @@ mod without {
         Err(missing("info --gpu"))
     }
 
-    pub(in super::super) fn render(_: &Scene, _: &Options, _: Option<&str>, _: &Watch) -> Result<Made, Failure> {
+    pub(in super::super) fn render(_: &Scene, _: &Options, _: How<'_>, _: &Watch) -> Result<Made, Failure> {
         Err(missing("render --backend gpu"))
     }
 
     pub(in super::super) fn render_if_able(
         _: &Scene,
         _: &Options,
-        _: Option<&str>,
+        _: How<'_>,
         _: &Watch,
     ) -> Result<Result<Made, Failure>, String> {
         Err("this freikugel was built without graphics processors".into())

@@ -1,7 +1,7 @@
 //! `freikugel render`: a picture of a scene or model.
 
 use super::Failure;
-use super::frame::{Frame, Samples, Watch, cannot_render, cannot_write, open, output_path, parse_method};
+use super::frame::{Frame, Samples, Voxels, Watch, cannot_render, cannot_write, open, output_path, parse_method};
 use super::graphics::{self, Backend};
 use super::input::{self, Input};
 use super::interrupt::Interrupt;
@@ -21,6 +21,7 @@ Examples:
   freikugel render cup.json --crop 100,50,64,64   a part of the frame, the same bytes as in the whole
   freikugel render cup.json --stats cup-stats.json
   freikugel render cup.json --backend gpu         by the graphics processor
+  freikugel render cup.json --backend gpu --voxels 50
   freikugel render cup.vm                         an expression graph: a solid, or without z a region of the plane";
 
 /// Render a picture of a scene.
@@ -45,6 +46,8 @@ pub(super) struct Arguments {
     /// A part of the name of the graphics processor; `info --gpu` lists them.
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
+    #[command(flatten)]
+    voxels: Voxels,
     /// The instruction set to evaluate fields with; by default the best one. The picture is the same with all.
     #[arg(long, value_name = "NAME")]
     simd: Option<String>,
@@ -110,14 +113,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Input::Scene(scene) => render(scene, &options, &watch).map_err(cannot_render),
         Input::Region(region) => region.render(&options, &watch).map_err(cannot_render),
     };
-    let adapter = arguments.adapter.as_deref();
+    let how = graphics::How { adapter: arguments.adapter.as_deref(), voxels: arguments.voxels.count };
     let made = match (backend, &input) {
         (Backend::Cpu, _) => on_cpu(&input).map(|rendered| (rendered, None)),
-        (Backend::Gpu, Input::Scene(scene)) => graphics::render(scene, &options, adapter, &watch),
+        (Backend::Gpu, Input::Scene(scene)) => graphics::render(scene, &options, how, &watch),
         (Backend::Gpu, Input::Region(_)) => {
             Err(Failure::Usage("regions of the plane are rendered on the CPU: leave --backend out".into()))
         }
-        (Backend::Auto, Input::Scene(scene)) => graphics::render_if_able(scene, &options, adapter, &watch)
+        (Backend::Auto, Input::Scene(scene)) => graphics::render_if_able(scene, &options, how, &watch)
             .unwrap_or_else(|reason| on_cpu(&input).map(|rendered| (rendered, Some(format!("CPU: {reason}"))))),
         (Backend::Auto, Input::Region(_)) => on_cpu(&input).map(|rendered| (rendered, None)),
     };
@@ -150,7 +153,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 /// What computes the picture, as far as the words of the command line say: some of them mean something on the CPU only.
 fn backend(arguments: &Arguments) -> Result<Backend, Failure> {
-    let Arguments { backend, adapter, simd, tracer, frame, .. } = arguments;
+    let Arguments { backend, adapter, simd, tracer, frame, voxels, .. } = arguments;
     let only_cpu = [("--simd", simd.is_some()), ("--tracer", tracer.is_some()), ("--threads", frame.threads.is_some())];
     let for_cpu = only_cpu.iter().find(|(_, is_given)| *is_given);
     match (backend, for_cpu) {
@@ -158,6 +161,13 @@ fn backend(arguments: &Arguments) -> Result<Backend, Failure> {
         (Backend::Cpu, _) if adapter.is_some() => {
             Err(Failure::Usage("--adapter names a graphics processor: add --backend gpu".into()))
         }
+        (Backend::Cpu, _) if voxels.count.is_some() => {
+            Err(Failure::Usage("voxels are drawn by graphics processors: add --backend gpu".into()))
+        }
+        (Backend::Auto, Some((name, _))) if voxels.count.is_some() => {
+            Err(Failure::Usage(format!("{name} is for the CPU, and voxels are drawn by graphics processors")))
+        }
+        (Backend::Auto, None) if voxels.count.is_some() => Ok(Backend::Gpu),
         (Backend::Auto, Some(_)) => Ok(Backend::Cpu),
         (backend, _) => Ok(*backend),
     }

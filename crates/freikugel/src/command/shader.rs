@@ -1,8 +1,9 @@
 //! `freikugel shader`: a scene as the text of a shader.
 
-use super::frame::{cannot_write, open, output_path};
+use super::frame::{Voxels, cannot_write, open, output_path};
 use super::interrupt::Interrupt;
 use super::{Failure, input, print};
+use freikugel::scene::Scene;
 use freikugel::shader::{Parameters, Shader, ShaderError, Target};
 use std::path::{Path, PathBuf};
 
@@ -10,7 +11,8 @@ const EXAMPLES: &str = "\
 Examples:
   freikugel shader cup.json --target shadertoy -o cup.glsl     paste it into Shadertoy
   freikugel shader cup.json --target wgsl --numbers cup.f32    the text, and the table of numbers that it reads
-  freikugel shader cup.json --target hlsl -o Cup.compute       a compute shader for Unity";
+  freikugel shader cup.json --target hlsl -o Cup.compute       a compute shader for Unity
+  freikugel shader cup.json --target glsl --voxels 50 --numbers cup.f32 --voxel-numbers cup-voxels.f32";
 
 /// Write a scene as a shader.
 #[derive(Debug, clap::Args)]
@@ -27,6 +29,11 @@ pub(super) struct Arguments {
     /// Write the numbers that the shader reads to this file, as 32-bit floating-point numbers, lowest byte first.
     #[arg(long, value_name = "FILE")]
     numbers: Option<PathBuf>,
+    #[command(flatten)]
+    voxels: Voxels,
+    /// Write the voxels that the shader reads to this file, as pairs of 32-bit floating-point numbers, lowest byte first.
+    #[arg(long, value_name = "FILE", requires = "voxels")]
+    voxel_numbers: Option<PathBuf>,
 }
 
 fn parse_target(text: &str) -> Result<Target, String> {
@@ -48,17 +55,21 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         false => Some(place(&output_path(arguments.output.as_deref(), &arguments.scene, arguments.target.ending())?)?),
     };
     let numbers_file = arguments.numbers.as_deref().map(place).transpose()?;
+    let voxels_file = arguments.voxel_numbers.as_deref().map(place).transpose()?;
 
-    let (text, parameters) = make(&scene, arguments.target).map_err(|error| Failure::Input(error.to_string()))?;
+    let (text, parameters) =
+        make(&scene, arguments.target, arguments.voxels.count).map_err(|error| Failure::Input(error.to_string()))?;
     for notice in parameters.notices() {
         eprintln!("freikugel: note: {notice}");
     }
     if interrupt.is_requested() {
         return Err(Failure::Interrupted);
     }
-    if let Some((file, path)) = numbers_file {
-        let bytes: Vec<u8> = parameters.numbers().iter().flat_map(|number| number.to_le_bytes()).collect();
-        file.write(&bytes).map_err(|error| cannot_write(&path, &error))?;
+    for (file, numbers) in [(numbers_file, parameters.numbers()), (voxels_file, parameters.voxels().as_flattened())] {
+        if let Some((file, path)) = file {
+            let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+            file.write(&bytes).map_err(|error| cannot_write(&path, &error))?;
+        }
     }
     match text_file {
         None => print(&text),
@@ -66,8 +77,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-fn make(scene: &freikugel::scene::Scene, target: Target) -> Result<(String, Parameters), ShaderError> {
-    let shader = Shader::new(scene)?;
+fn make(scene: &Scene, target: Target, voxels: Option<u32>) -> Result<(String, Parameters), ShaderError> {
+    let shader = match voxels {
+        None => Shader::new(scene)?,
+        Some(count) => Shader::of_voxels(scene, count)?,
+    };
     let parameters = shader.parameters(scene)?;
     Ok((shader.text(target, &parameters)?, parameters))
 }

@@ -1,7 +1,7 @@
 //! `freikugel view`: a scene in a window.
 
 use super::Failure;
-use super::frame::Samples;
+use super::frame::{Samples, Voxels};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -26,6 +26,8 @@ pub(super) struct Arguments {
     height: Option<u32>,
     #[command(flatten)]
     samples: Samples,
+    #[command(flatten)]
+    voxels: Voxels,
     /// A part of the name of the graphics processor; `info --gpu` lists them.
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
@@ -40,7 +42,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Says how to get a program with windows.
 #[cfg(not(feature = "gpu"))]
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let Arguments { scene: _, width: _, height: _, samples: _, adapter: _ } = arguments;
+    let Arguments { scene: _, width: _, height: _, samples: _, voxels: _, adapter: _ } = arguments;
     Err(super::graphics::missing("view"))
 }
 
@@ -69,6 +71,7 @@ mod window {
             width: options.width,
             height: options.height,
             samples: options.samples,
+            voxels: arguments.voxels.count,
             choice: graphics::choice(arguments.adapter.as_deref()),
         };
         let mut files = Files { path, stamp };

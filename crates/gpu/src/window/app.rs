@@ -66,6 +66,8 @@ pub struct WindowOptions {
     pub height: u32,
     /// Rays a pixel in the end.
     pub samples: u32,
+    /// How many voxels there are along the longest side, if the scene is to be sampled.
+    pub voxels: Option<u32>,
     /// The graphics processor.
     pub choice: Choice,
 }
@@ -163,7 +165,8 @@ impl App<'_> {
         gpu.checked(|| surface.configure(gpu.device(), &configuration)).map_err(ViewError::Gpu)?;
         let presenter = Presenter::new(&gpu, format).map_err(ViewError::Gpu)?;
         let size = [configuration.width, configuration.height];
-        let stage = Stage::new(&gpu, scene, size, self.options.samples).map_err(ViewError::from)?;
+        let WindowOptions { samples, voxels, .. } = *self.options;
+        let stage = Stage::new(&gpu, scene, size, samples, voxels).map_err(ViewError::from)?;
         let state = State::new(stage.camera(), stage.is_animated());
         let now = Instant::now();
         Ok(Open {

@@ -37,6 +37,8 @@ pub(crate) struct Stage {
     time: f64,
     /// What has drawn a whole picture already. Drivers compile when something is drawn first, which says nothing of the pace.
     warm: Vec<Entry>,
+    /// How many voxels there are along the longest side, if the scene is sampled.
+    voxels: Option<u32>,
 }
 
 /// Why a scene can't be shown.
@@ -51,9 +53,15 @@ pub(crate) enum StageError {
 }
 
 impl Stage {
-    /// Compiles a scene, for a window of some size and with some rays a pixel in the end.
-    pub(crate) fn new(gpu: &Arc<Gpu>, scene: Scene, size: [u32; 2], samples: u32) -> Result<Self, StageError> {
-        let (source, parameters, kernel, scene) = compiled(gpu, scene, size, samples)?;
+    /// Compiles a scene, for a window of some size and with some rays a pixel in the end; samples it before if there is a number of voxels.
+    pub(crate) fn new(
+        gpu: &Arc<Gpu>,
+        scene: Scene,
+        size: [u32; 2],
+        samples: u32,
+        voxels: Option<u32>,
+    ) -> Result<Self, StageError> {
+        let (source, parameters, kernel, scene) = compiled(gpu, scene, size, samples, voxels)?;
         let [coarse, fine] = sums(&kernel, size)?;
         Ok(Self {
             gpu: Arc::clone(gpu),
@@ -70,6 +78,7 @@ impl Stage {
             show: Show::Lit,
             time: 0.0,
             warm: Vec::new(),
+            voxels,
         })
     }
 
@@ -77,10 +86,11 @@ impl Stage {
     pub(crate) fn set_scene(&mut self, mut scene: Scene) -> Result<(), StageError> {
         prepared(&mut scene, self.size, self.samples())?;
         if let Ok(parameters) = self.source.parameters(&scene) {
+            self.kernel.set_table((&parameters).into())?;
             (self.parameters, self.scene) = (parameters, scene);
-            self.kernel.set_parameters(self.parameters.numbers());
         } else {
-            let (source, parameters, kernel, scene) = compiled(&self.gpu, scene, self.size, self.samples())?;
+            let samples = self.samples();
+            let (source, parameters, kernel, scene) = compiled(&self.gpu, scene, self.size, samples, self.voxels)?;
             let [coarse, fine] = sums(&kernel, self.size)?;
             (self.source, self.parameters, self.kernel, self.scene) = (source, parameters, kernel, scene);
             (self.coarse, self.fine) = (coarse, fine);
@@ -257,9 +267,10 @@ fn compiled(
     mut scene: Scene,
     size: [u32; 2],
     samples: u32,
+    voxels: Option<u32>,
 ) -> Result<(Source, Parameters, Kernel, Scene), StageError> {
     prepared(&mut scene, size, samples)?;
-    let (source, parameters) = Source::new(&scene)?;
+    let (source, parameters) = Source::new(&scene, voxels)?;
     let kernel = Kernel::new(gpu, source.text(), (&parameters).into(), View::SIZE)?;
     Ok((source, parameters, kernel, scene))
 }

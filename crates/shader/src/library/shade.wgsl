@@ -84,25 +84,6 @@ fn penumbra(ray: Ray, middle: vec3<f32>, radius: f32, sharpness: f32) -> vec2<f3
     return vec2<f32>(max((-b - root) / a, 0.0), (-b + root) / a);
 }
 
-// How far the nearest surface seems to be. Warped distances are divided by their slope there, since safe steps are much shorter;
-// formulas have no scale, so that they dim all or nothing.
-fn seen_clearance(near: vec2<f32>, p: vec3<f32>) -> f32 {
-    let safe: f32 = near.x * parameters[SCALE];
-    if (FORMULA_COUNT == 0 || near.y == -1.0) {
-        return safe;
-    }
-    let part: i32 = select(i32(near.y), -2 - i32(near.y), near.y < 0.0);
-    let metric: f32 = parameters[PARTS + PART_SIZE * part + 10];
-    if (metric == 0.0) {
-        return safe;
-    }
-    if (metric == 2.0) {
-        return FAR;
-    }
-    let value: vec4<f32> = part_gradient(part, p);
-    return max(safe, value.w / max(length(value.xyz), 1e-30));
-}
-
 // What a shadow ray goes by.
 struct Shade {
     // Whether nearness dims the light already, and the ratio of distance to clearance at which it begins to.

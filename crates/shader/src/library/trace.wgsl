@@ -203,10 +203,11 @@ fn trace(ray: Ray) -> Hit {
         let position: vec3<f32> = ray.origin + met.distance * ray.direction;
         let steepness: f32 = length(met.gradient.xyz);
         let normal: vec3<f32> = select(viewer, met.gradient.xyz / max(steepness, 1e-30), steepness > 0.0);
-        let away: f32 = tolerance_at(met.distance, length(position));
+        let tolerance: f32 = tolerance_at(met.distance, length(position));
+        let away: f32 = max(tolerance, blur());
         let slope: f32 = clamp(steepness * parameters[PARTS + PART_SIZE * met.part + 6], FLATTEST, 1.0);
         let facing_normal: vec3<f32> = facing(normal, viewer, met.part);
-        return Hit(met.distance, met.part, met.steps, met.is_unresolved, position, facing_normal, viewer, away, away, slope);
+        return Hit(met.distance, met.part, met.steps, met.is_unresolved, position, facing_normal, viewer, away, tolerance, slope);
     }
     if (plane >= 0) {
         let position: vec3<f32> = ray.origin + plane_at * ray.direction;

@@ -1,7 +1,7 @@
 // Has a browser draw pictures: `node run.mjs FOLDER`.
 //
 // FOLDER holds `jobs.json`, a list of { name, kind, width, height, blockVectors, textureWidth,
-// mouse }, and for each job NAME.glsl and NAME.f32.
+// voxelsWidth, mouse }, and for each job NAME.glsl, NAME.f32 and NAME.voxels, which is empty for scenes that are not sampled.
 // For each, NAME.rgb is written, bytes from the upper left, and NAME.png, what the page shows; and a line is printed: the name,
 // where the parameters were, milliseconds up to the first picture, and milliseconds for another one, with tabs between.
 
@@ -49,11 +49,14 @@ try {
     await page.goto(pathToFileURL(join(fileURLToPath(new URL(".", import.meta.url)), "page.html")).href);
     for (const job of jobs) {
         const file = ending => join(folder, `${job.name}.${ending}`);
-        const bytes = readFileSync(file("f32"));
-        const table = Array.from({ length: bytes.length / 4 }, (_, i) => bytes.readFloatLE(4 * i));
+        const numbers = ending => {
+            const bytes = readFileSync(file(ending));
+            return Array.from({ length: bytes.length / 4 }, (_, i) => bytes.readFloatLE(4 * i));
+        };
+        const [table, voxels] = ["f32", "voxels"].map(numbers);
         const text = readFileSync(file("glsl"), "utf8");
         try {
-            const { bytes: picture, way, first, again } = await page.evaluate(job => draw(job), { ...job, text, table });
+            const { bytes: picture, way, first, again } = await page.evaluate(job => draw(job), { ...job, text, table, voxels });
             writeFileSync(file("rgb"), Uint8Array.from(picture));
             await page.locator("#canvas").screenshot({ path: file("png") });
             console.log([job.name, way, first.toFixed(1), again.toFixed(1)].join("\t"));

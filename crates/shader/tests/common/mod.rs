@@ -68,6 +68,7 @@ pub(crate) struct Machine<'s> {
     members: HashMap<&'s str, Vec<&'s str>>,
     constants: HashMap<&'s str, Value>,
     parameters: Vec<f64>,
+    samples: &'s [[f32; 2]],
     view: Vec<Value>,
 }
 
@@ -77,12 +78,13 @@ const VIEW: [&str; 2] = ["size", "show"];
 type Scope<'e> = Vec<(String, Value)>;
 
 impl<'s> Machine<'s> {
-    pub(crate) fn new(shader: &'s Shader, parameters: &Parameters, view: &View) -> Self {
+    pub(crate) fn new(shader: &'s Shader, parameters: &'s Parameters, view: &View) -> Self {
         let mut machine = Self {
             functions: HashMap::new(),
             members: HashMap::new(),
             constants: HashMap::new(),
             parameters: parameters.numbers().iter().map(|&n| f64::from(n)).collect(),
+            samples: parameters.voxels(),
             view: vec![Vector(view.size.map(f64::from).to_vec()), Int(view.show.code().into())],
         };
         for item in shader.items() {
@@ -243,6 +245,7 @@ impl<'s> Machine<'s> {
                         assert_eq!(place % 4, 0, "quads are aligned");
                         Vector(self.parameters[place..place + 4].to_vec())
                     }
+                    false if name == "voxel" => Vector(self.samples[values[0].int() as usize].map(f64::from).to_vec()),
                     false => builtin(name, &values),
                 }
             }
