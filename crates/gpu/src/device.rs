@@ -15,6 +15,9 @@ use wgpu::{
     ShaderModule, ShaderModuleDescriptor, ShaderSource, SubmissionIndex, Trace,
 };
 
+/// What buffers of samples are called.
+pub(crate) const VOXELS: &str = "the scene's voxels";
+
 /// How long to wait for one piece of work. Systems give up on graphics processors after 2 to 10 s; software is
 /// given more, since machines without a graphics processor are often busy with other things as well.
 const PATIENCE: Duration = Duration::from_secs(120);
@@ -281,7 +284,8 @@ impl fmt::Display for GpuError {
             Self::Memory => f.write_str("the graphics processor's memory does not suffice"),
             Self::TooLarge { what, bytes, most } => write!(
                 f,
-                "the graphics processor takes {most} bytes in one piece, but {what} need {bytes}: render on the CPU instead"
+                "the graphics processor takes {most} bytes in one piece, but {what} need {bytes}: {}",
+                if *what == VOXELS { "choose fewer voxels" } else { "render on the CPU instead" }
             ),
             Self::Invalid(reason) => write!(f, "the graphics processor refuses the work: {reason}"),
             Self::Lost(reason) if reason.is_empty() => f.write_str("the graphics processor was lost"),

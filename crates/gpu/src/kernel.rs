@@ -3,7 +3,7 @@
 //! The shader computes one sample of each pixel of a tile; a second, fixed shader adds that to the sums of a picture.
 //! Neither a change of numbers nor of the view compiles anything.
 
-use crate::device::{Gpu, GpuError, bytes_of};
+use crate::device::{self, Gpu, GpuError, bytes_of};
 use freikugel_render::Rect;
 use freikugel_shader::Parameters;
 use std::sync::{Arc, OnceLock};
@@ -280,7 +280,7 @@ const VOXELS: u32 = 5;
 /// The buffer of samples, if there are some.
 fn voxel_buffer(gpu: &Gpu, voxels: &[[f32; 2]]) -> Result<Option<Buffer>, GpuError> {
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
-    (!voxels.is_empty()).then(|| filled(gpu, "the scene's voxels", voxels.as_flattened(), usage)).transpose()
+    (!voxels.is_empty()).then(|| filled(gpu, device::VOXELS, voxels.as_flattened(), usage)).transpose()
 }
 
 /// What the shaders that draw are bound to.
