@@ -602,6 +602,24 @@ fn shaders_are_written_for_every_target() {
 }
 
 #[test]
+fn voxels_come_in_a_file_of_their_own() {
+    let folder = Folder::new();
+    folder.write("ball.json", BALL);
+    let args = ["shader", "ball.json", "-t", "glsl", "--voxels", "32", "-o", "-", "--voxel-numbers", "ball.f32"];
+    let output = folder.run(&args);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stdout(&output).contains("uniform sampler2D voxels"));
+    let bytes = std::fs::read(folder.path("ball.f32")).expect("the voxels");
+    // Middles of 4 x 4 x 4 bricks, and all samples of some.
+    assert!(bytes.len() > 8 * 64 && (bytes.len() - 8 * 64).is_multiple_of(8 * 729), "{}", bytes.len());
+    let output = folder.run(&["shader", "ball.json", "-t", "glsl", "--voxel-numbers", "ball.f32"]);
+    assert_eq!(code(&output), 2, "{}", stderr(&output));
+    let output = folder.run(&["shader", "ball.json", "-t", "shadertoy", "--voxels", "32"]);
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).contains("Shadertoy has no place for voxels"), "{}", stderr(&output));
+}
+
+#[test]
 fn shaders_of_what_is_no_scene_are_refused() {
     let folder = Folder::new();
     folder.write("bad.json", r#"{ "objects": [ { "shape": { "sphere": { "radius": -1 } } } ] }"#);

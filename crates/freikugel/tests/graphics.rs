@@ -95,6 +95,22 @@ fn the_graphics_processor_renders_the_same_picture() {
 
 #[cfg(feature = "gpu")]
 #[test]
+fn voxels_are_drawn_and_counted() {
+    let folder = folder();
+    let args = ["render", "ball.json", "--backend", "auto", "--voxels", "40", "-o", "voxels.png"];
+    let output = run(folder.path(), &args);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stderr(&output).contains("voxels take 0."), "{}", stderr(&output));
+    let output = run(folder.path(), &["render", "ball.json", "--backend", "gpu", "--voxels", "4"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("choose 16 to 1024"), "{}", stderr(&output));
+    for args in [&["render", "ball.json", "--voxels", "50"][..], &["bench", "ball.json", "--voxels", "50"]] {
+        assert_eq!(run(folder.path(), args).status.code(), Some(2), "{args:?}");
+    }
+}
+
+#[cfg(feature = "gpu")]
+#[test]
 fn adapters_are_listed_and_chosen_by_name() {
     let folder = folder();
     let output = run(folder.path(), &["info", "--gpu"]);
@@ -162,13 +178,16 @@ fn frames_of_all_scenes_are_timed_on_both_processors() {
     assert!(output.status.success(), "{}", stderr(&output));
     let table = String::from_utf8_lossy(&output.stdout).into_owned();
     let rows = frame_rates(&folder.path().join("rates.json"));
-    let scenes = ["box", "columns", "Mandelbulb", "room", "10 prim", "20 prim", "100 prim", "300 prim"];
-    assert_eq!(rows.len(), 2 * scenes.len(), "{table}");
-    for (name, rows) in scenes.iter().zip(rows.chunks(2)) {
-        for row in rows {
+    let scenes = ["box", "columns", "Mandelbulb", "room", "50^3 voxels", "10 prim", "20 prim", "100 prim", "300 prim"];
+    let mut left = rows.iter();
+    for name in scenes {
+        // The CPU draws no voxels.
+        for on_gpu in [true, false].into_iter().filter(|on_gpu| *on_gpu || !name.contains("voxels")) {
+            let row = left.next().unwrap_or_else(|| panic!("{name} is missing: {table}"));
             assert!(row["scene"].as_str().is_some_and(|scene| scene.starts_with(name)), "{row}");
+            assert_eq!(row["pipelines_ms"].as_f64() > Some(0.0), on_gpu, "{row}");
         }
-        assert!(rows[0]["pipelines_ms"].as_f64() > Some(0.0) && rows[1]["pipelines_ms"].is_null(), "{rows:?}");
     }
+    assert!(left.next().is_none(), "{table}");
     assert_eq!(table.lines().filter(|line| line.starts_with("| ")).count(), 1 + rows.len(), "{table}");
 }

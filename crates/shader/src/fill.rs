@@ -13,7 +13,7 @@ use freikugel_field::{Aabb, Action, Extent, Interval, Limits, MaterialId, find_e
 use freikugel_grid::Bricks;
 use freikugel_render::Plan;
 use freikugel_scene::{Material, Model, Pattern, Scene};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// What boxes of formulas, and those that rays enter, are widened by, relative to their size, so that surfaces on their border lie inside.
 const BOX_MARGIN: f64 = 1e-3;
@@ -106,7 +106,7 @@ impl Filling<'_> {
     pub(crate) fn samples(&mut self, bricks: &Bricks) {
         let lattice = bricks.lattice();
         write_lattice(&mut self.numbers[self.layout.voxels..], lattice);
-        let [min, max] = [lattice.min(), lattice.max()].map(|corner| corner.as_dvec3());
+        let [min, max] = [lattice.min(), lattice.max()].map(Vec3::as_dvec3);
         Layout::set(self.numbers, "BOUNDS", &[min.x, min.y, min.z, max.x, max.y, max.z]);
         let place = self.layout.parts;
         write_box(&mut self.numbers[place..], Some(Aabb { min, max }), DVec3::ZERO);
