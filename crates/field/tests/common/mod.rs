@@ -375,7 +375,8 @@ fn winds_around(corners: &[f64], p: DVec3) -> bool {
 /// Whether a shape is the union, intersection or difference of a family of blends.
 pub(crate) fn is_blend(name: &str) -> bool {
     let families = ["round", "chamfer", "exponential", "polynomial", "stairs", "root"];
-    name.split_once('_').is_some_and(|(family, _)| families.contains(&family))
+    let operators = ["union", "intersection", "difference"];
+    name.split_once('_').is_some_and(|(family, operator)| families.contains(&family) && operators.contains(&operator))
 }
 
 fn all(answers: impl Iterator<Item = Option<bool>>) -> Option<Vec<bool>> {
