@@ -392,9 +392,21 @@ impl<I: Simd> Scalar for Intervals<I> {
         let (lo, hi) = (self.lo.max(zero), self.hi.max(zero));
         let corners = [lo.pow(exponent.lo), lo.pow(exponent.hi), hi.pow(exponent.lo), hi.pow(exponent.hi)];
         let [a, b, c, d] = corners;
-        // A negative base has powers with integer exponents, of which there may be some.
-        let power = Self::hull_of_four(a, b, c, d, ELEMENTARY).known_if(!self.lo.lt(zero));
-        Self { lo: Lanes::select(self.lo.lt(zero), power.lo, power.lo.max(zero)), hi: power.hi }
+        let power = Self::hull_of_four(a, b, c, d, ELEMENTARY);
+        let power = Self { lo: power.lo.max(zero), hi: power.hi };
+        // What of the base is negative has a power with a whole exponent only, as large as without the sign. Of several exponents
+        // some may be whole, and then nothing is said.
+        let e = exponent.lo;
+        let whole = e.floor();
+        let is_whole = !whole.lt(e);
+        let is_odd = is_whole & zero.lt(whole - (whole * 0.5).floor() * 2.0);
+        let size = Self::outward((-self.lo).max(zero).pow(e), (-self.lo).max(zero).pow(e), ELEMENTARY).hi;
+        let lo = Lanes::select(is_odd, -size, zero);
+        let hi = Lanes::select(is_whole & !is_odd, power.hi.max(size), power.hi);
+        let is_one = !e.lt(exponent.hi) | (!is_whole & !whole.lt(exponent.hi.floor()));
+        let is_positive = !self.lo.lt(zero);
+        let all = Self { lo: Lanes::select(is_positive, power.lo, lo), hi: Lanes::select(is_positive, power.hi, hi) };
+        all.known_if(is_positive | (is_one & zero.lt(e) & !self.hi.lt(zero)))
     }
 }
 

@@ -221,7 +221,8 @@ const fn derived<F: Family>(
 /// How much of the blend's size is left: 1 where the operands are equal, 0 where their gap is `k` or more. `inverse` is 1 / k.
 #[inline(always)]
 pub(crate) fn nearness<S: Scalar>(gap: S, k: S, inverse: S) -> S {
-    (k - gap).max(gap.lift(0.0)) * inverse
+    // The maximum comes last, so that no enclosure reaches below 0, where powers would be unknown.
+    ((k - gap) * inverse).max(gap.lift(0.0))
 }
 
 /// 1 / k, or 0 for no blend at all.
