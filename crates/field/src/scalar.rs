@@ -123,6 +123,25 @@ pub trait Scalar:
         (self - ((self + self.lift(1.0)) * self.lift(0.5)).floor() * self.lift(2.0)).abs()
     }
 
+    /// The same number computed in another way: enclosures keep what both have in common, all others the first.
+    #[inline(always)]
+    fn agreed(self, _other: Self) -> Self {
+        self
+    }
+
+    /// What is left of an enclosure without its width: its middle, or its polynomial. All other numbers are that themselves.
+    #[inline(always)]
+    fn core(self) -> Self {
+        self
+    }
+
+    /// An enclosure of `f(a, b)` from `self`, that of `f` for the [`core`](Scalar::core) of both, for an `f` that changes by no more than the
+    /// larger change of its two arguments.
+    #[inline(always)]
+    fn around_core(self, _a: Self, _b: Self) -> Self {
+        self
+    }
+
     /// The sine of an angle in radians; NaN at the infinities.
     fn sin(self) -> Self;
 

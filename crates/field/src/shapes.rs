@@ -3,9 +3,12 @@
 //! Written by `cargo xtask shapes` from the files in the folder of the same name. To add a shape, write its file and run
 //! that command.
 
+pub mod any_order;
+mod blend;
 pub mod box_frame;
 pub mod capped_torus;
 pub mod capsule;
+pub mod chamfer;
 pub mod circle;
 pub mod complement;
 pub mod cone;
@@ -20,6 +23,7 @@ pub mod ellipsoid;
 pub mod ellipsoid_bound;
 pub mod elongate;
 mod escape;
+pub mod exponential;
 pub mod extrude;
 pub mod formula;
 pub mod intersection;
@@ -40,9 +44,11 @@ pub mod repeat_mirrored;
 pub mod repeat_polar;
 pub mod revolve;
 pub mod ring;
+pub mod root;
 pub mod rotate;
 pub mod rotate_euler;
 pub mod rotate_quaternion;
+pub mod round;
 pub mod round_cone;
 pub mod scale;
 pub mod sheet;
@@ -53,6 +59,7 @@ pub mod smooth_intersection;
 pub mod smooth_union;
 pub mod solid_angle;
 pub mod sphere;
+pub mod stairs;
 pub mod star;
 pub mod stretch;
 pub mod symmetry;
@@ -63,9 +70,11 @@ pub mod union;
 pub mod warp;
 pub mod xor;
 
+pub use any_order::*;
 pub use box_frame::*;
 pub use capped_torus::*;
 pub use capsule::*;
+pub use chamfer::*;
 pub use circle::*;
 pub use complement::*;
 pub use cone::*;
@@ -79,6 +88,7 @@ pub use displace::*;
 pub use ellipsoid::*;
 pub use ellipsoid_bound::*;
 pub use elongate::*;
+pub use exponential::*;
 pub use extrude::*;
 pub use formula::*;
 pub use intersection::*;
@@ -98,9 +108,11 @@ pub use repeat_mirrored::*;
 pub use repeat_polar::*;
 pub use revolve::*;
 pub use ring::*;
+pub use root::*;
 pub use rotate::*;
 pub use rotate_euler::*;
 pub use rotate_quaternion::*;
+pub use round::*;
 pub use round_cone::*;
 pub use scale::*;
 pub use sheet::*;
@@ -111,6 +123,7 @@ pub use smooth_intersection::*;
 pub use smooth_union::*;
 pub use solid_angle::*;
 pub use sphere::*;
+pub use stairs::*;
 pub use star::*;
 pub use stretch::*;
 pub use symmetry::*;
@@ -125,9 +138,15 @@ use crate::shape::Shape;
 
 /// The descriptors of all shapes, by name.
 pub static ALL: &[&Shape] = &[
+    &POLYNOMIAL_UNION,
+    &POLYNOMIAL_INTERSECTION,
+    &POLYNOMIAL_DIFFERENCE,
     &BOX_FRAME,
     &CAPPED_TORUS,
     &CAPSULE,
+    &CHAMFER_UNION,
+    &CHAMFER_INTERSECTION,
+    &CHAMFER_DIFFERENCE,
     &CIRCLE,
     &COMPLEMENT,
     &CONE,
@@ -141,6 +160,9 @@ pub static ALL: &[&Shape] = &[
     &ELLIPSOID,
     &ELLIPSOID_BOUND,
     &ELONGATE,
+    &EXPONENTIAL_UNION,
+    &EXPONENTIAL_INTERSECTION,
+    &EXPONENTIAL_DIFFERENCE,
     &EXTRUDE,
     &FORMULA,
     &INTERSECTION,
@@ -160,9 +182,15 @@ pub static ALL: &[&Shape] = &[
     &REPEAT_POLAR,
     &REVOLVE,
     &RING,
+    &ROOT_UNION,
+    &ROOT_INTERSECTION,
+    &ROOT_DIFFERENCE,
     &ROTATE,
     &ROTATE_EULER,
     &ROTATE_QUATERNION,
+    &ROUND_UNION,
+    &ROUND_INTERSECTION,
+    &ROUND_DIFFERENCE,
     &ROUND_CONE,
     &SCALE,
     &SHEET,
@@ -173,6 +201,9 @@ pub static ALL: &[&Shape] = &[
     &SMOOTH_UNION,
     &SOLID_ANGLE,
     &SPHERE,
+    &STAIRS_UNION,
+    &STAIRS_INTERSECTION,
+    &STAIRS_DIFFERENCE,
     &STAR,
     &STRETCH,
     &SYMMETRY,

@@ -202,8 +202,12 @@ fn intervals_contain_and_are_narrow() {
             }
             // Around a ridge or in a seam the values hardly vary, while the slope's form still spans the cell's diagonal.
             let slack = 0.5 * CELL;
+            // A difference of faces that look the same way is nearly level in its whole blend, which ranges of its operands
+            // can't know.
+            let is_level = common::is_blend(name) && name.ends_with("difference");
+            let is_level = is_level && cell.width() <= CELL * 3f64.sqrt() * (1.0 + 1e-9);
             assert!(
-                is_orbit || cell.width() <= 4.0 * (highest - lowest) + slack,
+                is_orbit || is_level || cell.width() <= 4.0 * (highest - lowest) + slack,
                 "{name} {seed} at {corner}: {} for {}",
                 cell.width(),
                 highest - lowest

@@ -4,7 +4,9 @@ mod common;
 
 use common::Random;
 use freikugel_field::shapes::*;
-use freikugel_field::{Dimension, Extent, Field, Metric, Program, Severity, Structure, analyse, analyse_body, extent};
+use freikugel_field::{
+    Dimension, Extent, Field, Interval, Metric, Program, Severity, Structure, analyse, analyse_body, extent,
+};
 use glam::DVec3;
 
 /// Rounding errors of a few operations on numbers of this size.
@@ -190,5 +192,19 @@ fn mirrored_cells_are_folded_one_by_one() {
             }
         }
         assert!((made.value(p) - known.value(q)).abs() < 1e-12, "{p}");
+    }
+}
+
+#[test]
+fn sides_of_polygons_are_known_at_the_height_of_their_corners() {
+    // A half-line through a corner crosses two edges at once, or none, which enclosures can't tell.
+    let field: Field = polygon([[-1.0, -1.0], [2.0, -1.0], [2.0, 1.0], [0.5, 0.0], [-1.0, 1.0]]).into();
+    let program = program(&field);
+    let half = 1e-6;
+    let around = |x: f64| Interval::new(x - half, x + half);
+    for at in [[-2.0, 1.0], [0.7, 0.5], [-1.5, 0.0], [1.7, 0.0], [0.5, -0.7], [0.5, 2.0], [3.0, -0.7], [-3.0, -1.0]] {
+        let enclosure = program.interval([around(at[0]), around(at[1]), around(0.0)]);
+        let value = program.value(DVec3::new(at[0], at[1], 0.0));
+        assert!(enclosure.contains(value) && enclosure.width() < 10.0 * half, "{at:?}: {enclosure:?}, {value}");
     }
 }

@@ -171,7 +171,10 @@ impl Walker {
         if rules.is_soft && value > 0.0 {
             self.factor = self.factor.min(self.start.sharpness * value * rules.pace.scale / self.t);
         }
-        if value < base + growth * self.t {
+        // On its way, a ray that is merely near to a surface goes on to where the sign changes: values that are small because the
+        // field is flat are no hits. Without a sign there is nothing else to go by.
+        let is_near = value < base + growth * self.t && (last.is_nan() || rules.has_sheets);
+        if value < 0.0 || is_near {
             // From a positive value the zero lies behind; otherwise the ray begins on the surface or in the solid.
             if value < 0.0 && last > 0.0 {
                 self.state = State::Halving { near, far: self.t, left: HALVINGS };

@@ -321,6 +321,12 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
     }
 
     #[inline(always)]
+    fn agreed(self, other: Self) -> Self {
+        let gradient = std::array::from_fn(|axis| self.gradient[axis].agreed(other.gradient[axis]));
+        Self { value: self.value.agreed(other.value), gradient }
+    }
+
+    #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos().0
     }

@@ -367,6 +367,21 @@ impl Scalar for Interval {
         Self { lo: (lo - error).max(0.0), hi: (hi + error).min(1.0) }
     }
 
+    fn agreed(self, other: Self) -> Self {
+        self.meet(other)
+    }
+
+    fn core(self) -> Self {
+        let middle = 0.5 * self.lo + 0.5 * self.hi;
+        if middle.is_finite() { Self { lo: middle, hi: middle } } else { self }
+    }
+
+    fn around_core(self, a: Self, b: Self) -> Self {
+        let radius = |of: Self| (of.hi - of.core().lo).max(of.core().hi - of.lo).next_up();
+        let radius = radius(a).max(radius(b));
+        Self::outward(self.lo - radius, self.hi + radius)
+    }
+
     fn sin(self) -> Self {
         self.sin_cos().0
     }

@@ -68,6 +68,14 @@ impl<I: Simd> Intervals<I> {
         Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
     }
 
+    /// How far the ends are from the middle that [`Scalar::core`] takes.
+    #[inline(always)]
+    fn radius(self) -> Lanes<I> {
+        let middle = self.lo * 0.5 + self.hi * 0.5;
+        let radius = (self.hi - middle).max(middle - self.lo);
+        radius + radius * (2.0 * UNIT) + TINY
+    }
+
     /// Moves both ends outward by the part `unit` of themselves.
     #[inline(always)]
     fn outward(lo: Lanes<I>, hi: Lanes<I>, unit: f64) -> Self {
@@ -319,6 +327,30 @@ impl<I: Simd> Scalar for Intervals<I> {
         // Rounding errors are those of the argument.
         let error = self.lo.abs().max(self.hi.abs()) * (2.0 * UNIT);
         Self { lo: (lo - error).max(zero), hi: (hi + error).min(one) }
+    }
+
+    #[inline(always)]
+    fn agreed(self, other: Self) -> Self {
+        // Of what can't be compared, `max` and `min` take the second one.
+        let common = Self { lo: other.lo.max(self.lo), hi: other.hi.min(self.hi) };
+        let is_empty = common.hi.lt(common.lo);
+        Self { lo: Lanes::select(is_empty, self.lo, common.lo), hi: Lanes::select(is_empty, self.hi, common.hi) }
+    }
+
+    #[inline(always)]
+    fn core(self) -> Self {
+        let middle = self.lo * 0.5 + self.hi * 0.5;
+        let is_known = middle.abs().lt(middle.lift(f64::INFINITY));
+        Self { lo: Lanes::select(is_known, middle, self.lo), hi: Lanes::select(is_known, middle, self.hi) }
+    }
+
+    #[inline(always)]
+    fn around_core(self, a: Self, b: Self) -> Self {
+        let (a, b) = (a.radius(), b.radius());
+        let radius = a.max(b);
+        // What is not known of one is not known of both.
+        let is_known = (a + b).lt(a.lift(f64::INFINITY));
+        Self::outward(self.lo - radius, self.hi + radius, UNIT).known_if(is_known)
     }
 
     #[inline(always)]

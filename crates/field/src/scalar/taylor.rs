@@ -423,6 +423,24 @@ impl<I: Simd> Scalar for Taylor<I> {
     }
 
     #[inline(always)]
+    fn agreed(self, other: Self) -> Self {
+        // Common parts of two models are no model; the narrower one is.
+        let [own, others] = [self.range(), other.range()];
+        Self::choose((others.hi - others.lo).lt(own.hi - own.lo), other, self)
+    }
+
+    #[inline(always)]
+    fn core(self) -> Self {
+        Self { r: self.r.lift(0.0), ..self }
+    }
+
+    #[inline(always)]
+    fn around_core(self, a: Self, b: Self) -> Self {
+        // The larger bound, and NaN for what has no value.
+        self.with_slack(Lanes::select(a.r.lt(b.r), b.r, a.r)).undefined_if(a.p[0].is_nan() | b.p[0].is_nan())
+    }
+
+    #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos().0
     }

@@ -1,8 +1,10 @@
 //! Polygon in the plane, given by its corners. Exact.
 //!
 //! The nearest of all edges gives the distance; whether the half-line to the right crosses an odd number of them gives the side.
+//! So does the half-line upwards: at the height of a corner one alone leaves enclosures of the side in the dark.
 
 use crate::shape_prelude::*;
+use std::ops::{BitAnd, BitOr, Not};
 
 /// See [`polygon`].
 #[derive(Clone, Copy, Debug)]
@@ -69,21 +71,31 @@ pub(crate) fn polygon_distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S
     let (mut ax, mut ay) = (c.at(2 * count - 2), c.at(2 * count - 1));
     // The way from the nearest point of all edges so far.
     let (mut nx, mut ny) = (p.x - ax, p.y - ay);
-    let mut side = one;
+    let mut least = nx.square() + ny.square();
+    let (mut side, mut other_side) = (one, one);
     for index in 0..count {
         let (bx, by) = (c.at(2 * index), c.at(2 * index + 1));
         let (ex, ey) = (ax - bx, ay - by);
         let (wx, wy) = (p.x - bx, p.y - by);
         let along = ((wx * ex + wy * ey) / (ex.square() + ey.square())).max(zero).min(one);
         let (dx, dy) = (wx - ex * along, wy - ey * along);
-        let is_nearer = (dx.square() + dy.square()).lt(nx.square() + ny.square());
+        let square = dx.square() + dy.square();
+        let is_nearer = square.lt(least);
+        least = square.min(least);
         nx = S::select(is_nearer, dx, nx);
         ny = S::select(is_nearer, dy, ny);
-        let (is_below, ends_above) = (p.y.lt(by), p.y.lt(ay));
         let is_left = (ey * wx).lt(ex * wy);
-        let crosses = (!is_below & ends_above & is_left) | (is_below & !ends_above & !is_left);
-        side = S::select(crosses, -side, side);
+        side = S::select(crosses(p.y.lt(by), p.y.lt(ay), is_left), -side, side);
+        other_side = S::select(crosses(p.x.lt(bx), p.x.lt(ax), !is_left), -other_side, other_side);
         (ax, ay) = (bx, by);
     }
-    side * S::length2(nx, ny)
+    // Where two edges are as near, an enclosure of the way from them holds all between.
+    side.agreed(other_side) * S::length2(nx, ny).agreed(least.sqrt())
+}
+
+/// Whether a half-line from a point crosses an edge, by which ends of the edge lie beyond the line that the half-line is part of, and
+/// by the side of the edge on which the point lies.
+#[inline(always)]
+fn crosses<M: Copy + BitAnd<Output = M> + BitOr<Output = M> + Not<Output = M>>(starts: M, ends: M, is_left: M) -> M {
+    (!starts & ends & is_left) | (starts & !ends & !is_left)
 }

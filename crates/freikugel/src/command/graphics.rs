@@ -19,6 +19,7 @@ pub(super) enum Backend {
 
 /// How a graphics processor draws.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(not(feature = "gpu"), expect(dead_code, reason = "nothing draws"))]
 pub(super) struct How<'a> {
     /// A part of its name; the best one by default.
     pub(super) adapter: Option<&'a str>,
