@@ -49,6 +49,13 @@ pub(crate) fn prepare(args: &[f64]) -> Vec<f64> {
 /// The smooth minimum. Without a blend (k = 0) it is the plain one.
 #[inline(always)]
 pub(crate) fn smooth_min<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
+    // Shares make 1, so that a blend moves no more than its operands: in enclosures, each of which is in the formula several
+    // times, that is narrower where both are near.
+    plain_smooth_min(a, b, c).agreed(plain_smooth_min(a.core(), b.core(), c).around_core(a, b))
+}
+
+#[inline(always)]
+fn plain_smooth_min<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
     let [k, inverse, square, cubic, _, _] = c.get();
     let h = (k - (a - b).abs()).max(a.lift(0.0)) * inverse;
     a.min(b) - h.square() * (square + cubic * h)
