@@ -42,7 +42,7 @@ fn args(shape: &Shape, k: f64, own: Option<f64>, mix: f64) -> Vec<f64> {
 /// What the blend makes of two numbers, in double precision.
 fn value(table: &CombineTable, args: &[f64], a: f64, b: f64) -> f64 {
     let constants = (table.prepare)(args);
-    let with = freikugel_field::Constants::new(a, &constants[..], constants.len());
+    let with = Constants::new(a, &constants[..], constants.len());
     (table.kernels.real)(a, b, &with)
 }
 
