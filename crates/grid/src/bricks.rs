@@ -5,7 +5,7 @@ use glam::{UVec3, Vec3};
 
 /// Bricks are kept if something within this many voxels of a surface may lie in them: central differences at a surface reach one
 /// voxel far, and the samples around that another one.
-pub(crate) const MARGIN: f32 = 2.0;
+pub const MARGIN: u32 = 2;
 
 /// Half the diagonal of a cube over its edge, rounded up.
 pub(crate) const HALF_DIAGONAL: f32 = 0.866_025_6;
@@ -88,7 +88,7 @@ impl Bricks {
         let middles = middles(&lattice, source, &mut points)?;
         let mut bricks =
             Self { lattice, slots: vec![EMPTY; middles.len()], middles, values: Vec::new(), labels: Vec::new() };
-        let reach = HALF_DIAGONAL * lattice.brick() + MARGIN * lattice.voxel();
+        let reach = HALF_DIAGONAL * lattice.brick() + MARGIN as f32 * lattice.voxel();
         let mut kept = 0;
         for brick in all(UVec3::ZERO, lattice.bricks()) {
             let number = lattice.number(brick);

@@ -31,5 +31,5 @@ mod bricks;
 mod lattice;
 mod read;
 
-pub use bricks::{Block, Bricks, Points, Source};
+pub use bricks::{Block, Bricks, MARGIN, Points, Source};
 pub use lattice::{CELLS, FEWEST_CELLS, GridError, Lattice, MOST_CELLS, SAMPLES};

@@ -26,7 +26,7 @@ impl Bricks {
             // A field changes by no more than the distance, and what holds no fine samples is no nearer than the margin.
             let middle = self.middles[number];
             let away = inside.distance(self.lattice.middle(brick));
-            let least = (middle.abs() - away).max(MARGIN * self.lattice.voxel());
+            let least = (middle.abs() - away).max(MARGIN as f32 * self.lattice.voxel());
             least.copysign(middle)
         })
     }

@@ -148,6 +148,7 @@ impl Layout {
             ("VOXELS", self.voxels),
             ("CELLS", freikugel_grid::CELLS as usize),
             ("SAMPLES", freikugel_grid::SAMPLES as usize),
+            ("MARGIN", freikugel_grid::MARGIN as usize),
             ("PLANES", self.planes),
             ("PLANE_SIZE", PLANE_SIZE),
             ("PLANE_COUNT", self.plane_count),

@@ -74,7 +74,7 @@ impl Sampled {
         let side = f64::from(lattice.brick()) * f64::from(lattice.bricks().max_element().next_power_of_two());
         let corner = plan.origin + lattice.min().as_dvec3();
         let level = simd::best();
-        let mut source = Parts {
+        let mut source = Pruned {
             cells: Cells::new(&program, Aabb { min: corner, max: corner + side }),
             splitter: Splitter::new(level),
             evaluator: Evaluator::with_level(&program, level),
@@ -116,7 +116,7 @@ pub(crate) fn table(bricks: &Bricks, regions: &[usize]) -> Vec<[f32; 2]> {
 }
 
 /// A scene's field, of which each block needs a part only.
-struct Parts<'p> {
+struct Pruned<'p> {
     cells: Cells,
     splitter: Splitter,
     evaluator: Evaluator<'p>,
@@ -124,7 +124,7 @@ struct Parts<'p> {
     scale: f32,
 }
 
-impl Parts<'_> {
+impl Pruned<'_> {
     /// The part of the smallest box that holds a block.
     fn part(&mut self, block: &Block) -> Arc<freikugel_field::Part> {
         let Self { cells, splitter, .. } = self;
@@ -153,7 +153,7 @@ fn slices(points: &Points) -> freikugel_field::Points<'_> {
     freikugel_field::Points { x: &points.x, y: &points.y, z: &points.z }
 }
 
-impl Source for Parts<'_> {
+impl Source for Pruned<'_> {
     fn values(&mut self, block: &Block, points: &Points, values: &mut [f32]) {
         let part = self.part(block);
         self.evaluator.values_in(&part, slices(points), values);

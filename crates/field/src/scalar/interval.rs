@@ -372,7 +372,7 @@ impl Scalar for Interval {
     }
 
     fn core(self) -> Self {
-        let middle = 0.5 * self.lo + 0.5 * self.hi;
+        let middle = self.middle();
         if middle.is_finite() { Self { lo: middle, hi: middle } } else { self }
     }
 

@@ -68,10 +68,15 @@ impl<I: Simd> Intervals<I> {
         Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
     }
 
-    /// How far the ends are from the middle that [`Scalar::core`] takes.
+    #[inline(always)]
+    fn middle(self) -> Lanes<I> {
+        self.lo * 0.5 + self.hi * 0.5
+    }
+
+    /// How far the ends are from the middle.
     #[inline(always)]
     fn radius(self) -> Lanes<I> {
-        let middle = self.lo * 0.5 + self.hi * 0.5;
+        let middle = self.middle();
         let radius = (self.hi - middle).max(middle - self.lo);
         radius + radius * (2.0 * UNIT) + TINY
     }
@@ -339,7 +344,7 @@ impl<I: Simd> Scalar for Intervals<I> {
 
     #[inline(always)]
     fn core(self) -> Self {
-        let middle = self.lo * 0.5 + self.hi * 0.5;
+        let middle = self.middle();
         let is_known = middle.abs().lt(middle.lift(f64::INFINITY));
         Self { lo: Lanes::select(is_known, middle, self.lo), hi: Lanes::select(is_known, middle, self.hi) }
     }

@@ -16,7 +16,7 @@ pub static POLYNOMIAL_UNION: Shape = blend::union::<Polynomial>();
 /// The descriptor of [`polynomial_intersection`].
 pub static POLYNOMIAL_INTERSECTION: Shape = blend::intersection::<Polynomial>(About {
     name: "polynomial_intersection",
-    summary: "An intersection with a fillet that is sharper in its middle the higher the `order` along its edges; materials mix across them.",
+    summary: "An intersection with a fillet along its edges, the sharper in its middle the higher its order; materials mix across them.",
     params: &[blend::K, ORDER, blend::MIX, blend::KEEP],
     elsewhere: &["smax"],
     example: r#"{ "polynomial_intersection": { "k": 0.3, "order": 4, "shapes":
@@ -26,7 +26,7 @@ pub static POLYNOMIAL_INTERSECTION: Shape = blend::intersection::<Polynomial>(Ab
 /// The descriptor of [`polynomial_difference`].
 pub static POLYNOMIAL_DIFFERENCE: Shape = blend::difference::<Polynomial>(About {
     name: "polynomial_difference",
-    summary: "A difference with a fillet that is sharper in its middle the higher the `order` along the cut's edges; materials mix across them.",
+    summary: "A difference with a fillet along the cut's edges, the sharper in its middle the higher its order; materials mix across them.",
     params: &[blend::K, ORDER, blend::MIX, blend::KEEP],
     elsewhere: &[],
     example: r#"{ "polynomial_difference": { "k": 0.2, "order": 4, "shapes":
@@ -64,7 +64,7 @@ const ORDER: Param = Param::optional(
 impl Family for Polynomial {
     const UNION: About = About {
         name: "polynomial_union",
-        summary: "A union with a fillet that is sharper in its middle the higher the `order` in its seams; materials mix across them.",
+        summary: "A union with a fillet in its seams, the sharper in its middle the higher its order; materials mix across them.",
         params: &[blend::K, ORDER, blend::MIX],
         elsewhere: &["smin", "sminN"],
         example: r#"{ "polynomial_union": { "k": 0.4, "order": 4, "shapes":

@@ -1,6 +1,3 @@
-// Bricks hold fine samples where a surface may be within this many voxels: as in the crate that takes them.
-const MARGIN: f32 = 2.0;
-
 // How far an interpolated surface may be from where its normals say, in voxels: with less, rays that leave hollow surfaces meet them.
 const BLUR: f32 = 0.1;
 
@@ -14,11 +11,12 @@ struct Cell {
     local: vec3<f32>,
 }
 
-// The least and the greatest corner of the box of samples, the edge of a voxel, and numbers of bricks along the axes.
+// The least corner of the box of samples.
 fn voxels_min() -> vec3<f32> {
     return triple(VOXELS);
 }
 
+// The greatest corner.
 fn voxels_max() -> vec3<f32> {
     return triple(VOXELS) + f32(CELLS) * parameters[VOXELS + 3] * triple(VOXELS + 4);
 }
@@ -88,6 +86,7 @@ fn seen_from(p: vec3<f32>, inside: vec3<f32>, value: f32) -> f32 {
     return select(length(vec2<f32>(away, max(value, 0.0))), value, away == 0.0);
 }
 
+// The nearest point of the box.
 fn into_box(p: vec3<f32>) -> vec3<f32> {
     return min(max(p, voxels_min()), voxels_max());
 }
@@ -117,7 +116,7 @@ fn reach_at(p: vec3<f32>, parts: i32) -> vec2<f32> {
     // No value differs by more than the distance, and what holds no fine samples is no nearer than the margin.
     let voxel_size: f32 = parameters[VOXELS + 3];
     let away: f32 = length(cell.local - vec3<f32>(0.5 * f32(CELLS))) * voxel_size;
-    let least: f32 = max(abs(cell.brick.x) - away, MARGIN * voxel_size);
+    let least: f32 = max(abs(cell.brick.x) - away, f32(MARGIN) * voxel_size);
     let free: f32 = select(least, -least, cell.brick.x < 0.0);
     return vec2<f32>(seen_from(p, inside, free) / scale, select(-1.0, 0.0, free < 0.0));
 }
