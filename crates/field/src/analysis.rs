@@ -62,6 +62,15 @@ pub fn analyse(field: &Field) -> (Option<Analysis>, Vec<Diagnostic>) {
     (analysis, walk.diagnostics)
 }
 
+/// As [`analyse`], for what stands side by side in one scene: plane figures are an error among bodies.
+pub fn analyse_together(fields: &[Field]) -> Vec<(Option<Analysis>, Vec<Diagnostic>)> {
+    let analyses: Vec<_> = fields.iter().map(analyse).collect();
+    let is_body = |(analysis, _): &(Option<Analysis>, _)| {
+        analysis.as_ref().is_some_and(|analysis| analysis.contract.dimension == Dimension::Space)
+    };
+    if analyses.iter().any(is_body) { fields.iter().map(analyse_body).collect() } else { analyses }
+}
+
 /// As [`analyse`], for what is to be a body by itself: a plane figure is an error.
 pub fn analyse_body(field: &Field) -> (Option<Analysis>, Vec<Diagnostic>) {
     let (analysis, mut diagnostics) = analyse(field);

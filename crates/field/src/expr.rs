@@ -55,6 +55,8 @@ pub enum Term {
     Input(u32),
     /// An entry of the table of constants.
     Slot(u32),
+    /// Inside a loop over rows of constants: entry `.1` of the first row, in later rows as much farther on.
+    RowSlot(u32, u32),
     /// A number, as its bits.
     Literal(u64),
     /// An operation with one operand.
@@ -80,8 +82,10 @@ pub struct Loop {
     pub start: Vec<u32>,
     /// The state after a step.
     pub next: Vec<u32>,
-    /// Whether to go on after a step.
-    pub go_on: u32,
+    /// Whether to go on after a step; always if there is nothing.
+    pub go_on: Option<u32>,
+    /// How many constants a row has, of a loop over all rows of a list.
+    pub row: Option<u32>,
 }
 
 /// The recorded operations of one or several formulas.
@@ -135,13 +139,22 @@ impl Graph {
         Expr { graph: self, id }
     }
 
-    fn begin_loop(&self, limit: u32, start: Vec<u32>) -> u32 {
+    fn begin_loop(&self, limit: u32, row: Option<u32>, start: Vec<u32>) -> u32 {
         let mut loops = self.loops.borrow_mut();
-        loops.push(Loop { limit, start, next: Vec::new(), go_on: 0 });
+        loops.push(Loop { limit, start, next: Vec::new(), go_on: None, row });
         (loops.len() - 1) as u32
     }
 
-    fn end_loop(&self, this: u32, next: Vec<u32>, go_on: u32) {
+    /// The numbers of a state or a result.
+    fn spread<const N: usize>(&self, term: impl Fn(u32) -> Term) -> [Expr<'_>; N] {
+        let mut place = 0;
+        [(); N].map(|()| {
+            place += 1;
+            self.term(term(place - 1))
+        })
+    }
+
+    fn end_loop(&self, this: u32, next: Vec<u32>, go_on: Option<u32>) {
         let this = &mut self.loops.borrow_mut()[this as usize];
         (this.next, this.go_on) = (next, go_on);
     }
@@ -177,7 +190,7 @@ impl Graph {
                 Term::Unary(_, a) => deepest(&[a], &owners, &parents),
                 Term::Binary(_, a, b) | Term::Length(a, b, None) => deepest(&[a, b], &owners, &parents),
                 Term::Select(a, b, c) | Term::Length(a, b, Some(c)) => deepest(&[a, b, c], &owners, &parents),
-                Term::State(l, _) => {
+                Term::State(l, _) | Term::RowSlot(l, _) => {
                     parents[l as usize] = deepest(&loops[l as usize].start, &owners, &parents);
                     Some(l)
                 }
@@ -261,7 +274,7 @@ impl Run<'_> {
                     }
                 }
                 // Set by the loop that runs this block.
-                Term::State(..) => continue,
+                Term::State(..) | Term::RowSlot(..) => continue,
                 Term::Result(l, place) => {
                     if finished[l as usize].is_empty() {
                         self.run_loop(l, values, finished);
@@ -277,12 +290,14 @@ impl Run<'_> {
         let this = &self.loops[l as usize];
         let read = |ids: &[u32], values: &[f64]| ids.iter().map(|&id| values[id as usize]).collect::<Vec<_>>();
         let mut state = read(&this.start, values);
-        for _ in 0..this.limit {
+        for step in 0..this.limit {
             for (id, term) in self.terms.iter().enumerate() {
-                if let Term::State(of, place) = *term
-                    && of == l
-                {
-                    values[id] = state[place as usize];
+                match *term {
+                    Term::State(of, place) if of == l => values[id] = state[place as usize],
+                    Term::RowSlot(of, slot) if of == l => {
+                        values[id] = self.slots[(slot + step * this.row.unwrap_or(0)) as usize];
+                    }
+                    _ => {}
                 }
                 // Inner loops run anew in each step.
                 if let (Term::Result(inner, _), true) = (*term, self.owners[id] == Some(l)) {
@@ -291,7 +306,7 @@ impl Run<'_> {
             }
             self.block(Some(l), values, finished);
             state = read(&this.next, values);
-            if values[this.go_on as usize] != 1.0 {
+            if this.go_on.is_some_and(|go_on| values[go_on as usize] != 1.0) {
                 break;
             }
         }
@@ -306,13 +321,32 @@ pub struct Expr<'g> {
     id: u32,
 }
 
+impl Constants<'_, Expr<'_>> {
+    /// The slot of the first one.
+    fn place(&self) -> u32 {
+        let (table, first) = self.origin();
+        table.first + first as u32
+    }
+}
+
 /// The outcome of a comparison in a [`Graph`].
 #[derive(Clone, Copy, Debug)]
 pub struct Condition<'g>(Expr<'g>);
 
 /// Where the constants of a node start in the table that the shader reads.
 #[derive(Clone, Copy, Debug)]
-pub struct Slots(pub u32);
+pub struct Slots {
+    first: u32,
+    /// The loop in whose rows they are.
+    row_of: Option<u32>,
+}
+
+impl Slots {
+    /// At this place.
+    pub fn at(first: u32) -> Self {
+        Self { first, row_of: None }
+    }
+}
 
 impl<'g> Expr<'g> {
     /// Its place among the terms of the graph.
@@ -425,7 +459,11 @@ impl<'g> Scalar for Expr<'g> {
     }
 
     fn constant(self, table: &Slots, index: usize) -> Self {
-        self.graph.term(Term::Slot(table.0 + index as u32))
+        let slot = table.first + index as u32;
+        self.graph.term(match table.row_of {
+            Some(this) => Term::RowSlot(this, slot),
+            None => Term::Slot(slot),
+        })
     }
 
     fn lt(self, rhs: Self) -> Condition<'g> {
@@ -520,18 +558,27 @@ impl<'g> Scalar for Expr<'g> {
             return state;
         };
         let graph = first.graph;
-        let this = graph.begin_loop(limit, state.iter().map(|s| s.id).collect());
-        let mut place = 0;
-        let before = [(); N].map(|()| {
-            place += 1;
-            graph.term(Term::State(this, place - 1))
-        });
-        let (next, go_on) = step(before);
-        graph.end_loop(this, next.iter().map(|s| s.id).collect(), go_on.0.id);
-        let mut place = 0;
-        [(); N].map(|()| {
-            place += 1;
-            graph.term(Term::Result(this, place - 1))
-        })
+        let this = graph.begin_loop(limit, None, state.iter().map(|s| s.id).collect());
+        let (next, go_on) = step(graph.spread(|place| Term::State(this, place)));
+        graph.end_loop(this, next.iter().map(|s| s.id).collect(), Some(go_on.0.id));
+        graph.spread(|place| Term::Result(this, place))
+    }
+
+    fn fold_rows<const N: usize>(
+        constants: &Constants<'_, Self>,
+        width: usize,
+        state: [Self; N],
+        step: impl Fn([Self; N], &Constants<'_, Self>) -> [Self; N],
+    ) -> [Self; N] {
+        let (Some(first), rows) = (state.first(), constants.count() / width) else {
+            return state;
+        };
+        let graph = first.graph;
+        let this = graph.begin_loop(rows as u32, Some(width as u32), state.iter().map(|s| s.id).collect());
+        let slots = Slots { first: constants.place(), row_of: Some(this) };
+        let row = Constants::new(*first, &slots, width);
+        let next = step(graph.spread(|place| Term::State(this, place)), &row);
+        graph.end_loop(this, next.iter().map(|s| s.id).collect(), None);
+        graph.spread(|place| Term::Result(this, place))
     }
 }

@@ -58,7 +58,7 @@ mod spine;
 pub mod structure;
 pub mod vector;
 
-pub use analysis::{Analysis, MAX_DEPTH, analyse, analyse_body, copies, extent};
+pub use analysis::{Analysis, MAX_DEPTH, analyse, analyse_body, analyse_together, copies, extent};
 pub use cells::{Cell, Cells, Occupancy, Slope, Splitter, Surveyed, Wanted};
 pub use contract::{Aabb, Contract, Dimension, Extent, Metric};
 pub use diagnostic::{Diagnostic, Severity};
@@ -84,7 +84,7 @@ mod shape_prelude {
     pub(crate) use crate::scalar::{Constants, Interval, Scalar};
     pub(crate) use crate::shape::{
         AXIS, About, Combine, Copies, ExactForm, Hull, Map, Modify, Param, ParamKind, Place, PlaceCall, Primitive,
-        Settled, Shape, Supports, in_plane,
+        Settled, Shape, Special, Supports, in_plane,
     };
     pub(crate) use crate::vector::{Vec3, vec3};
     pub(crate) use glam::{DAffine3, DMat3, DQuat, DVec3};

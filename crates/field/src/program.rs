@@ -494,6 +494,6 @@ impl Host for Expr<'_> {
     }
 
     fn with_table<R>(_constants: &[f64], range: Run, read: impl FnOnce(&Slots) -> R) -> R {
-        read(&Slots(range.start() as u32))
+        read(&Slots::at(range.start() as u32))
     }
 }

@@ -46,6 +46,9 @@ pub trait Scalar:
     /// Where [`Constants`] are read from: a slice of numbers, or the place of shader parameters.
     type Table: ?Sized;
 
+    /// Whether it stands for all numbers of a range. Formulas may then take more care, which others needn't.
+    const IS_ENCLOSURE: bool = false;
+
     /// The constant `c`, as a scalar of the kind of `self`.
     fn lift(self, c: f64) -> Self;
 
@@ -230,6 +233,25 @@ pub trait Scalar:
         }
         state
     }
+
+    /// Applies `step` to `state` once for each row of `width` constants, in order: for formulas of lists. In shaders it becomes a
+    /// loop, so that the text does not grow with the list.
+    ///
+    /// Write the step as `#[inline(always)] |state, row| ...`: a step that is not inlined loses the instruction set.
+    #[inline(always)]
+    fn fold_rows<const N: usize>(
+        constants: &Constants<'_, Self>,
+        width: usize,
+        mut state: [Self; N],
+        step: impl Fn([Self; N], &Constants<'_, Self>) -> [Self; N],
+    ) -> [Self; N] {
+        let mut first = 0;
+        while first + width <= constants.count() {
+            state = step(state, &constants.part(first, width));
+            first += width;
+        }
+        state
+    }
 }
 
 /// `x^n`, or nothing for `n = 0`.
@@ -255,6 +277,7 @@ fn repeated_squaring<S: Scalar>(x: S, n: u32) -> Option<S> {
 pub struct Constants<'t, S: Scalar> {
     like: S,
     table: &'t S::Table,
+    first: usize,
     len: usize,
 }
 
@@ -262,7 +285,18 @@ impl<'t, S: Scalar> Constants<'t, S> {
     /// The first `len` entries of `table`, read as scalars of the kind of `like`.
     #[inline(always)]
     pub fn new(like: S, table: &'t S::Table, len: usize) -> Self {
-        Self { like, table, len }
+        Self { like, table, first: 0, len }
+    }
+
+    /// Some of them: `len` from `first` on.
+    #[inline(always)]
+    pub fn part(&self, first: usize, len: usize) -> Self {
+        Self { first: self.first + first, len, ..*self }
+    }
+
+    /// Where they are read from, and which of its entries is the first one.
+    pub(crate) fn origin(&self) -> (&'t S::Table, usize) {
+        (self.table, self.first)
     }
 
     /// How many there are. Fixed for most shapes; lists have as many as the user wrote.
@@ -274,7 +308,7 @@ impl<'t, S: Scalar> Constants<'t, S> {
     /// The constant at `index`.
     #[inline(always)]
     pub fn at(&self, index: usize) -> S {
-        self.like.constant(self.table, index)
+        self.like.constant(self.table, self.first + index)
     }
 
     /// The first `N` constants.

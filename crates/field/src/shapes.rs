@@ -4,21 +4,29 @@
 //! that command.
 
 pub mod any_order;
+pub mod arc;
+pub mod arch;
 mod blend;
 pub mod box_frame;
 pub mod capped_torus;
 pub mod capsule;
 pub mod chamfer;
+pub mod chamfered_box;
+pub mod chamfered_rectangle;
 pub mod circle;
+pub mod circle_segment;
 pub mod complement;
 pub mod cone;
 pub mod convex_polyhedron;
 pub mod convex_polyhedron_bound;
+pub mod cross;
 pub mod cuboid;
 pub mod cut_sphere;
 pub mod cylinder;
 pub mod difference;
 pub mod displace;
+pub mod dodecahedron;
+pub mod egg;
 pub mod ellipsoid;
 pub mod ellipsoid_bound;
 pub mod elongate;
@@ -26,15 +34,23 @@ mod escape;
 pub mod exponential;
 pub mod extrude;
 pub mod formula;
+pub mod heart;
+pub mod horseshoe;
+pub mod icosahedron;
 pub mod intersection;
+pub mod lens;
 pub mod link;
 pub mod mandelbulb;
+pub mod moon;
 pub mod octahedron;
 pub mod offset;
+pub mod outline;
 pub mod paint;
+pub mod parallelogram;
 pub mod plane;
 pub mod polygon;
 mod polynomial;
+pub mod pyramid;
 pub mod quaternion_julia;
 pub mod rectangle;
 pub mod reflect;
@@ -43,7 +59,9 @@ pub mod repeat;
 pub mod repeat_mirrored;
 pub mod repeat_polar;
 pub mod revolve;
+pub mod rhombus;
 pub mod ring;
+pub mod ring_sector;
 pub mod root;
 pub mod rotate;
 pub mod rotate_euler;
@@ -51,6 +69,7 @@ pub mod rotate_quaternion;
 pub mod round;
 pub mod round_cone;
 pub mod scale;
+pub mod sector;
 pub mod sheet;
 pub mod shell;
 pub mod slab;
@@ -59,46 +78,68 @@ pub mod smooth_intersection;
 pub mod smooth_union;
 pub mod solid_angle;
 pub mod sphere;
+pub mod staircase;
 pub mod stairs;
 pub mod star;
 pub mod stretch;
 pub mod symmetry;
+pub mod tetrahedron;
 pub mod torus;
 pub mod translate;
+pub mod trapezoid;
+pub mod truncated_octahedron;
 pub mod twist;
+pub mod uneven_capsule;
 pub mod union;
 pub mod warp;
+pub mod wedge;
 pub mod xor;
 
 pub use any_order::*;
+pub use arc::*;
+pub use arch::*;
 pub use box_frame::*;
 pub use capped_torus::*;
 pub use capsule::*;
 pub use chamfer::*;
+pub use chamfered_box::*;
+pub use chamfered_rectangle::*;
 pub use circle::*;
+pub use circle_segment::*;
 pub use complement::*;
 pub use cone::*;
 pub use convex_polyhedron::*;
 pub use convex_polyhedron_bound::*;
+pub use cross::*;
 pub use cuboid::*;
 pub use cut_sphere::*;
 pub use cylinder::*;
 pub use difference::*;
 pub use displace::*;
+pub use dodecahedron::*;
+pub use egg::*;
 pub use ellipsoid::*;
 pub use ellipsoid_bound::*;
 pub use elongate::*;
 pub use exponential::*;
 pub use extrude::*;
 pub use formula::*;
+pub use heart::*;
+pub use horseshoe::*;
+pub use icosahedron::*;
 pub use intersection::*;
+pub use lens::*;
 pub use link::*;
 pub use mandelbulb::*;
+pub use moon::*;
 pub use octahedron::*;
 pub use offset::*;
+pub use outline::*;
 pub use paint::*;
+pub use parallelogram::*;
 pub use plane::*;
 pub use polygon::*;
+pub use pyramid::*;
 pub use quaternion_julia::*;
 pub use rectangle::*;
 pub use reflect::*;
@@ -107,7 +148,9 @@ pub use repeat::*;
 pub use repeat_mirrored::*;
 pub use repeat_polar::*;
 pub use revolve::*;
+pub use rhombus::*;
 pub use ring::*;
+pub use ring_sector::*;
 pub use root::*;
 pub use rotate::*;
 pub use rotate_euler::*;
@@ -115,6 +158,7 @@ pub use rotate_quaternion::*;
 pub use round::*;
 pub use round_cone::*;
 pub use scale::*;
+pub use sector::*;
 pub use sheet::*;
 pub use shell::*;
 pub use slab::*;
@@ -123,15 +167,21 @@ pub use smooth_intersection::*;
 pub use smooth_union::*;
 pub use solid_angle::*;
 pub use sphere::*;
+pub use staircase::*;
 pub use stairs::*;
 pub use star::*;
 pub use stretch::*;
 pub use symmetry::*;
+pub use tetrahedron::*;
 pub use torus::*;
 pub use translate::*;
+pub use trapezoid::*;
+pub use truncated_octahedron::*;
 pub use twist::*;
+pub use uneven_capsule::*;
 pub use union::*;
 pub use warp::*;
+pub use wedge::*;
 pub use xor::*;
 
 use crate::shape::Shape;
@@ -141,22 +191,30 @@ pub static ALL: &[&Shape] = &[
     &POLYNOMIAL_UNION,
     &POLYNOMIAL_INTERSECTION,
     &POLYNOMIAL_DIFFERENCE,
+    &ARC,
+    &ARCH,
     &BOX_FRAME,
     &CAPPED_TORUS,
     &CAPSULE,
     &CHAMFER_UNION,
     &CHAMFER_INTERSECTION,
     &CHAMFER_DIFFERENCE,
+    &CHAMFERED_BOX,
+    &CHAMFERED_RECTANGLE,
     &CIRCLE,
+    &CIRCLE_SEGMENT,
     &COMPLEMENT,
     &CONE,
     &CONVEX_POLYHEDRON,
     &CONVEX_POLYHEDRON_BOUND,
+    &CROSS,
     &BOX,
     &CUT_SPHERE,
     &CYLINDER,
     &DIFFERENCE,
     &DISPLACE,
+    &DODECAHEDRON,
+    &EGG,
     &ELLIPSOID,
     &ELLIPSOID_BOUND,
     &ELONGATE,
@@ -165,14 +223,22 @@ pub static ALL: &[&Shape] = &[
     &EXPONENTIAL_DIFFERENCE,
     &EXTRUDE,
     &FORMULA,
+    &HEART,
+    &HORSESHOE,
+    &ICOSAHEDRON,
     &INTERSECTION,
+    &LENS,
     &LINK,
     &MANDELBULB,
+    &MOON,
     &OCTAHEDRON,
     &OFFSET,
+    &OUTLINE,
     &PAINT,
+    &PARALLELOGRAM,
     &PLANE,
     &POLYGON,
+    &PYRAMID,
     &QUATERNION_JULIA,
     &RECTANGLE,
     &REFLECT,
@@ -181,7 +247,9 @@ pub static ALL: &[&Shape] = &[
     &REPEAT_MIRRORED,
     &REPEAT_POLAR,
     &REVOLVE,
+    &RHOMBUS,
     &RING,
+    &RING_SECTOR,
     &ROOT_UNION,
     &ROOT_INTERSECTION,
     &ROOT_DIFFERENCE,
@@ -193,6 +261,7 @@ pub static ALL: &[&Shape] = &[
     &ROUND_DIFFERENCE,
     &ROUND_CONE,
     &SCALE,
+    &SECTOR,
     &SHEET,
     &SHELL,
     &SLAB,
@@ -201,16 +270,22 @@ pub static ALL: &[&Shape] = &[
     &SMOOTH_UNION,
     &SOLID_ANGLE,
     &SPHERE,
+    &STAIRCASE,
     &STAIRS_UNION,
     &STAIRS_INTERSECTION,
     &STAIRS_DIFFERENCE,
     &STAR,
     &STRETCH,
     &SYMMETRY,
+    &TETRAHEDRON,
     &TORUS,
     &TRANSLATE,
+    &TRAPEZOID,
+    &TRUNCATED_OCTAHEDRON,
     &TWIST,
+    &UNEVEN_CAPSULE,
     &UNION,
     &WARP,
+    &WEDGE,
     &XOR,
 ];

@@ -105,10 +105,10 @@ fn an_exact_distance_equals_the_nearest_of_many_surface_points() {
                 continue;
             }
             // Along directions that narrow down on the best one, the first change of membership by bisection.
-            let reach = |direction: DVec3| -> f64 {
+            let reach = |direction: DVec3, around: f64| -> f64 {
                 let (mut near, mut far) = (0.0, f64::INFINITY);
                 for i in 1..=60 {
-                    let t = value * (0.9 + 0.2 * f64::from(i) / 60.0);
+                    let t = value * (1.0 + around * (f64::from(i) / 30.0 - 1.0));
                     if contains(&field, p + direction * t) == Some(true) {
                         far = t;
                         break;
@@ -125,25 +125,33 @@ fn an_exact_distance_equals_the_nearest_of_many_surface_points() {
                 }
                 far
             };
-            let mut best = (f64::INFINITY, DVec3::X);
-            let mut spread = 2.0;
-            for round in 0..12 {
-                let count = if round == 0 { 1000 } else { 80 };
-                for _ in 0..count {
-                    let direction = if round == 0 || !best.0.is_finite() {
-                        random.direction()
-                    } else {
-                        (best.1 + random.direction() * spread).normalize()
-                    };
-                    let t = reach(direction);
-                    if t < best.0 {
-                        best = (t, direction);
+            // From all directions, and around the one in which the surface is said to lie, where it may be a tip: thinner than the
+            // steps that are taken in other directions.
+            let said = -program.gradient(p).1.normalize_or(DVec3::X);
+            let mut least = f64::INFINITY;
+            for start in [None, Some(said)] {
+                let mut best = (f64::INFINITY, start);
+                let (mut spread, around) = if start.is_none() { (2.0, 0.1) } else { (0.05, 0.003) };
+                for round in 0..12 {
+                    let count = if round == 0 && start.is_none() { 1000 } else { 80 };
+                    for _ in 0..count {
+                        let direction = match best.1 {
+                            Some(best) if round > 0 || start.is_some() => {
+                                (best + random.direction() * spread).normalize()
+                            }
+                            _ => random.direction(),
+                        };
+                        let t = reach(direction, around);
+                        if t < best.0 {
+                            best = (t, Some(direction));
+                        }
                     }
+                    spread *= 0.45;
                 }
-                spread *= 0.45;
+                least = least.min(best.0);
             }
-            if best.0.is_finite() {
-                assert!((best.0 - value).abs() < 2e-3 * value, "{name} at {p}: {value}, but {}", best.0);
+            if least.is_finite() {
+                assert!((least - value).abs() < 2e-3 * value, "{name} at {p}: {value}, but {least}");
             }
         }
     }

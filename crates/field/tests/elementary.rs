@@ -675,7 +675,7 @@ fn duals_of_lanes_follow_those_of_doubles() {
 fn expressions_compute_the_same() {
     let graph = Graph::new();
     let [x, y, _] = graph.point();
-    let constant = x.constants(&freikugel_field::expr::Slots(0), 1).at(0);
+    let constant = x.constants(&freikugel_field::expr::Slots::at(0), 1).at(0);
     type Direct = Box<dyn Fn(f64, f64) -> f64>;
     let mut cases: Vec<(String, Expr<'_>, Direct)> = UNARY
         .iter()

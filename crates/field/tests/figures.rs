@@ -208,3 +208,136 @@ fn sides_of_polygons_are_known_at_the_height_of_their_corners() {
         assert!(enclosure.contains(value) && enclosure.width() < 10.0 * half, "{at:?}: {enclosure:?}, {value}");
     }
 }
+
+#[test]
+fn corners_of_solids_lie_on_them_and_are_their_outermost_points() {
+    let signs = || [1.0, -1.0].into_iter();
+    let all_signs = move |x: f64, y: f64, z: f64| {
+        signs().flat_map(move |a| signs().flat_map(move |b| signs().map(move |c| DVec3::new(a * x, b * y, c * z))))
+    };
+    let turned = |p: DVec3| [p, DVec3::new(p.y, p.z, p.x), DVec3::new(p.z, p.x, p.y)];
+    let golden = (1.0 + 5f64.sqrt()) / 2.0;
+    let cube: Vec<DVec3> = all_signs(1.0, 1.0, 1.0).collect();
+    let solids: [(Field, Vec<DVec3>); 4] = [
+        (tetrahedron(1.3).into(), cube.iter().copied().filter(|p| p.x * p.y * p.z > 0.0).collect()),
+        (
+            dodecahedron(1.3).into(),
+            cube.iter().copied().chain(all_signs(0.0, 1.0 / golden, golden).flat_map(turned)).collect(),
+        ),
+        (icosahedron(1.3).into(), all_signs(0.0, 1.0, golden).flat_map(turned).collect()),
+        (
+            truncated_octahedron(1.3 * 2.0 / 5f64.sqrt()).into(),
+            all_signs(0.0, 1.0, 2.0).flat_map(|p| [p, DVec3::new(p.x, p.z, p.y)]).flat_map(turned).collect(),
+        ),
+    ];
+    let mut random = Random::new(5);
+    for (field, corners) in solids {
+        let program = program(&field);
+        let name = field.node().shape.about.name;
+        let corners: Vec<DVec3> = corners.into_iter().map(|corner| corner.normalize() * 1.3).collect();
+        for &corner in &corners {
+            assert!(program.value(corner).abs() < ROUNDING, "{name}: {corner}");
+            // Straight out from a corner nothing else is nearer.
+            assert!((program.value(corner * 1.5) - 0.65).abs() < ROUNDING, "{name}: {corner}");
+        }
+        // The hull of the corners holds all points of the solid and no others.
+        for p in (0..500).map(|_| random.point(1.4)) {
+            let direction = p.normalize();
+            let is_beyond = corners.iter().all(|corner| corner.dot(direction) < p.dot(direction));
+            assert!(!is_beyond || program.value(p) > 0.0, "{name}: {p}");
+        }
+        for _ in 0..500 {
+            let shares: Vec<f64> = corners.iter().map(|_| random.unit().powi(6)).collect();
+            let inside = corners.iter().zip(&shares).map(|(c, s)| *c * *s).sum::<DVec3>() / shares.iter().sum::<f64>();
+            assert!(program.value(inside) < ROUNDING, "{name}: {inside}");
+        }
+    }
+}
+
+#[test]
+fn outlines_are_as_far_as_the_nearest_of_their_points() {
+    /// So many points along each edge, none of which is longer than this.
+    const STEPS: u32 = 4000;
+    const LONGEST: f64 = 16.0;
+    let mut random = Random::new(77);
+    for round in 0..60 {
+        let count = 2 + random.below(5);
+        let mut line: Vec<[f64; 3]> =
+            (0..count).map(|_| [random.range(-1.0, 1.0), random.range(-1.0, 1.0), random.range(-5.0, 5.0)]).collect();
+        // Half of all edges are straight, and some all but straight.
+        line.iter_mut().for_each(|corner| corner[2] *= [0.0, 0.0, 1e-6, 1.0, 1.0, 1.0][random.below(6)]);
+        line[0][2] = random.range(0.5, 3.0);
+        let field: Field = outline([line.clone(), vec![[-0.2, 0.1, 3.0], [0.3, 0.0, -2.0]]]).into();
+        let program = program(&field);
+        let points: Vec<DVec3> = [line, vec![[-0.2, 0.1, 3.0], [0.3, 0.0, -2.0]]]
+            .iter()
+            .flat_map(|line| {
+                (0..line.len()).flat_map(|index| {
+                    let ([ax, ay, turn], [bx, by, _]) = (line[index], line[(index + 1) % line.len()]);
+                    (0..=STEPS).map(move |step| {
+                        // Along an arc the direction turns evenly from the chord's, less half of the turn.
+                        let (share, chord) = (f64::from(step) / f64::from(STEPS), DVec3::new(bx - ax, by - ay, 0.0));
+                        let part = if turn == 0.0 { share } else { (turn * share / 2.0).sin() / (turn / 2.0).sin() };
+                        DVec3::new(ax, ay, 0.0)
+                            + glam::DQuat::from_rotation_z(turn * (share - 1.0) / 2.0) * chord * part
+                    })
+                })
+            })
+            .collect();
+        for _ in 0..20 {
+            let p = random.point(1.5) * DVec3::new(1.0, 1.0, 0.0);
+            let nearest = points.iter().map(|q| q.distance(p)).fold(f64::INFINITY, f64::min);
+            let value = program.value(p);
+            // The foot lies within a step of the nearest of these points, along the line at a right angle to the way there.
+            let excess = nearest.powi(2) - value.powi(2);
+            let step = LONGEST / f64::from(STEPS);
+            assert!((-ROUNDING..step * step).contains(&excess), "round {round}: {value}, not {nearest}");
+        }
+    }
+}
+
+#[test]
+fn sides_of_outlines_are_right_at_the_height_of_corners_and_on_chords() {
+    let circle = |turn: f64| outline([vec![[-1.0, 0.0, turn], [1.0, 0.0, turn]]]);
+    for turn in [std::f64::consts::PI, -std::f64::consts::PI] {
+        let program = program(&circle(turn).into());
+        // All on the chord or at the height of corners, where a half-line meets two edges at once.
+        for x in [-1.5, -0.9, -0.1, 0.0, 0.5, 0.99, 1.2] {
+            let value = program.value(DVec3::new(x, 0.0, 0.0));
+            assert!((value - (x.abs() - 1.0)).abs() < ROUNDING, "{x}: {value}");
+            let value = program.value(DVec3::new(0.0, x, 0.0));
+            assert!((value - (x.abs() - 1.0)).abs() < ROUNDING, "{x}: {value}");
+        }
+    }
+    // Four arcs on a square, on whose edges and diagonals points lie; two of them dents.
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let corners = vec![[-1.0, -1.0, quarter], [1.0, -1.0, -quarter], [1.0, 1.0, quarter], [-1.0, 1.0, -quarter]];
+    let program = program(&outline([corners]).into());
+    let depth = 2f64.sqrt() - 1.0;
+    for (at, value) in [
+        ([0.0, -1.0], -depth),
+        ([0.0, 1.0], -depth),
+        ([1.0, 0.0], depth),
+        ([-1.0, 0.0], depth),
+        ([0.0, -1.0 - depth], 0.0),
+        ([1.0 - depth, 0.0], 0.0),
+    ] {
+        let found = program.value(DVec3::new(at[0], at[1], 0.0));
+        assert!((found - value).abs() < ROUNDING, "{at:?}: {found}, not {value}");
+    }
+}
+
+#[test]
+fn outlines_that_make_no_figure_are_refused() {
+    for (corners, message) in [
+        (vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], "fewer than three corners has no arc"),
+        (
+            vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
+            "corner 2 of `outline` and the next one are the same",
+        ),
+        (vec![[0.0, 0.0, 6.3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]], "less than 360 degrees"),
+    ] {
+        let (analysis, diagnostics) = analyse(&outline([corners]).into());
+        assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{diagnostics:?}");
+    }
+}

@@ -64,6 +64,8 @@ pub enum RenderError {
     Options(OptionsError),
     /// There is not enough memory for the picture.
     Memory,
+    /// A slice would have more than this many lines at equal distances.
+    Lines(u32),
     /// It was given up as [`Progress::is_cancelled`] asked for.
     Cancelled,
 }
@@ -294,6 +296,9 @@ impl fmt::Display for RenderError {
             Self::Prepare(error) => error.fmt(f),
             Self::Options(error) => error.fmt(f),
             Self::Memory => f.write_str("there is not enough memory for a picture of this size"),
+            Self::Lines(most) => {
+                write!(f, "there would be more than {most} lines; take a larger distance between them")
+            }
             Self::Cancelled => f.write_str("the rendering was cancelled"),
         }
     }

@@ -7,7 +7,7 @@ use crate::diagnostic::Severity;
 use crate::record::{Fault, Record};
 use crate::scene::Scene;
 use crate::suggest::quote;
-use freikugel_field::{Diagnostic, Field, Origin, analyse_body};
+use freikugel_field::{Diagnostic, Field, Origin, analyse_together};
 use std::collections::HashSet;
 use std::panic::Location;
 
@@ -97,13 +97,14 @@ impl Check {
             self.error(None, "the scene has no objects".into());
         }
         let mut names = HashSet::new();
-        for (index, object) in scene.objects.iter().enumerate() {
+        let shapes: Vec<Field> = scene.objects.iter().map(|object| object.shape.clone()).collect();
+        let analyses = analyse_together(&shapes);
+        for (index, (object, (analysis, faults))) in scene.objects.iter().zip(analyses).enumerate() {
             let at = scene.origins.objects.get(index).copied().flatten();
             if !names.insert(&object.name) {
                 self.error(at, format!("another object is called {} already", quote(&object.name)));
             }
             self.faults(at, &format!("object {}", quote(&object.name)), object.faults());
-            let (analysis, faults) = analyse_body(&object.shape);
             self.diagnostics.extend(faults);
             let is_foreign = object.material.is_some_and(|id| id.0 as usize >= scene.materials.len());
             // Without an analysis the tree may be too deep to walk through.

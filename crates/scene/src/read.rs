@@ -7,7 +7,7 @@ use crate::record::Record;
 use crate::scene::Scene;
 use crate::schema::Definitions;
 use crate::syntax::{Written, parse};
-use freikugel_field::{Origin, analyse_body};
+use freikugel_field::{Origin, analyse_together};
 use serde_json::{Value as Json, json};
 
 /// What reading a scene file gave.
@@ -88,8 +88,8 @@ fn newer_version(root: &Written<'_>) -> Option<Diagnostic> {
 
 /// Reports what the fields say of themselves, in terms of the document.
 fn analyse_roots(reader: &mut Reader) {
-    for root in std::mem::take(&mut reader.roots) {
-        for fault in analyse_body(&root).1 {
+    for (_, faults) in analyse_together(&std::mem::take(&mut reader.roots)) {
+        for fault in faults {
             let Origin::Document(index) = fault.origin else {
                 continue;
             };

@@ -14,17 +14,34 @@ pub(crate) fn statements(
     graph: &Graph,
     results: &[expr::Expr<'_>],
     inputs: &[Expr],
-    slot: &dyn Fn(usize) -> Expr,
+    table: &dyn Table,
 ) -> (Vec<Statement>, Vec<Expr>) {
     let (terms, loops, owners) = (graph.terms(), graph.loops(), graph.owners());
     let results: Vec<u32> = results.iter().map(|result| result.id()).collect();
     let uses = Uses::of(&terms, &loops, &owners, &results);
     let count = terms.len();
     let mut writer =
-        Writer { terms, loops, owners, uses, inputs, slot, written: vec![None; count], run: Vec::new(), names: 0 };
+        Writer { terms, loops, owners, uses, inputs, table, written: vec![None; count], run: Vec::new(), names: 0 };
     let body = writer.block(None);
     let results = results.iter().map(|&id| writer.operand(id)).collect();
     (body, results)
+}
+
+/// Where constants are read from.
+pub(crate) trait Table {
+    /// A constant by its place.
+    fn slot(&self, slot: usize) -> Expr;
+
+    /// How many rows a list has that had so many when the formula was recorded.
+    fn rows(&self, recorded: u32) -> Expr {
+        Expr::Int(recorded.into())
+    }
+}
+
+impl<F: Fn(usize) -> Expr> Table for F {
+    fn slot(&self, slot: usize) -> Expr {
+        self(slot)
+    }
 }
 
 /// How often each term is read, and whether a reader is in another block.
@@ -52,10 +69,12 @@ impl Uses {
                 Term::Unary(_, a) => read(a),
                 Term::Binary(_, a, b) | Term::Length(a, b, None) => [a, b].into_iter().for_each(read),
                 Term::Length(a, b, Some(c)) | Term::Select(a, b, c) => [a, b, c].into_iter().for_each(read),
+                // The loop itself stands there as soon as one of its results is read.
+                Term::RowSlot(..) => {}
                 Term::State(l, place) | Term::Result(l, place) => {
                     let (this, states) = (&loops[l as usize], &mut live_states[l as usize]);
                     if !states.contains(&true) {
-                        pending.push((this.go_on, Some(Some(l))));
+                        pending.extend(this.go_on.map(|id| (id, Some(Some(l)))));
                     }
                     if !std::mem::replace(&mut states[place as usize], true) {
                         // The start is computed before the loop, wherever that is.
@@ -75,7 +94,7 @@ struct Writer<'a> {
     owners: Vec<Option<u32>>,
     uses: Uses,
     inputs: &'a [Expr],
-    slot: &'a dyn Fn(usize) -> Expr,
+    table: &'a dyn Table,
     /// What stands for a term where it is read.
     written: Vec<Option<Expr>>,
     /// Loops that stand there already.
@@ -122,7 +141,7 @@ impl Writer<'_> {
     }
 
     fn run_loop(&mut self, l: u32, body: &mut Vec<Statement>) {
-        let Loop { limit, start, next, go_on } = self.loops[l as usize].clone();
+        let Loop { limit, start, next, go_on, row } = self.loops[l as usize].clone();
         let is_live = |writer: &Self, place: usize| {
             writer.terms.iter().enumerate().any(|(id, term)| match *term {
                 Term::State(of, at) | Term::Result(of, at) => {
@@ -152,17 +171,20 @@ impl Writer<'_> {
             };
             changes.push(Statement::Assign(Expr::Name(state(l, place)), value));
         }
-        let goes_on = match self.operand(go_on) {
+        let goes_on = go_on.map(|id| match self.operand(id) {
             name @ Expr::Name(_) => name,
             value => {
                 let name = format!("goes_on{l}");
                 inner.push(Statement::Let(name.clone(), Type::Bool, value));
                 Expr::Name(name)
             }
-        };
+        });
         inner.append(&mut changes);
-        inner.push(Statement::If(Expr::Not(Box::new(goes_on)), vec![Statement::Break], Vec::new()));
-        body.push(Statement::Count(format!("i{l}"), Expr::Int(0), Expr::Int(limit.into()), inner));
+        if let Some(goes_on) = goes_on {
+            inner.push(Statement::If(Expr::Not(Box::new(goes_on)), vec![Statement::Break], Vec::new()));
+        }
+        let limit = if row.is_some() { self.table.rows(limit) } else { Expr::Int(limit.into()) };
+        body.push(Statement::Count(counter(l), Expr::Int(0), limit, inner));
     }
 
     fn operand(&self, id: u32) -> Expr {
@@ -180,7 +202,17 @@ impl Writer<'_> {
         };
         Some(match self.terms[id as usize] {
             Term::Input(input) => self.inputs[input as usize].clone(),
-            Term::Slot(slot) => (self.slot)(slot as usize),
+            Term::Slot(slot) => self.table.slot(slot as usize),
+            Term::RowSlot(l, slot) => {
+                let width = self.loops[l as usize].row.unwrap_or(0);
+                match self.table.slot(slot as usize) {
+                    Expr::Parameter(place) => {
+                        let row = Expr::Name(counter(l)) * Expr::Int(width.into());
+                        Expr::Parameter(Box::new(*place + row))
+                    }
+                    _ => unreachable!("lists are read from the table"),
+                }
+            }
             Term::Literal(bits) => Expr::Float(f64::from_bits(bits) as f32),
             Term::State(l, place) | Term::Result(l, place) => Expr::Name(state(l, place as usize)),
             Term::Unary(op, a) => {
@@ -233,6 +265,11 @@ impl Writer<'_> {
             Term::Select(c, yes, no) => Expr::select(self.operand(c), self.operand(yes), self.operand(no)),
         })
     }
+}
+
+/// The variable that counts the steps of a loop.
+fn counter(l: u32) -> String {
+    format!("i{l}")
 }
 
 /// The variable of a number in a loop's state.
@@ -290,7 +327,7 @@ mod tests {
     fn all_functions_become_valid_text() {
         let graph = Graph::new();
         let [x, y, _] = graph.point();
-        let slot = x.constants(&Slots(0), 1).at(0);
+        let slot = x.constants(&Slots::at(0), 1).at(0);
         let cases = [
             (x.sin(), "sin(p.x)"),
             (x.cos(), "cos(p.x)"),

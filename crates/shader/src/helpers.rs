@@ -1,7 +1,7 @@
 //! One function for each function of shapes that a scene uses, and one for its derivatives: written once, with the constants
 //! as arguments.
 
-use crate::formula::statements;
+use crate::formula::{Table, statements};
 use crate::names::Names;
 use crate::tree::{Expr, Function, Statement, Type};
 use freikugel_field::expr::{self, Graph, Slots};
@@ -12,6 +12,9 @@ use std::ops::Range;
 
 /// With more constants than this a function gets the place of the first one instead.
 const MOST_ARGUMENTS: usize = 10;
+
+/// The argument that says how many rows a list has.
+const ROWS: &str = "rows";
 
 /// The functions written so far.
 pub(crate) struct Helpers {
@@ -87,8 +90,12 @@ pub(crate) enum Mapping {
 
 /// How constants come into a function.
 enum Passing {
+    /// By themselves, under these names.
     Each(Vec<String>),
+    /// By the place of the first one.
     First,
+    /// By the place of the first one and the number of rows: one function serves lists of all lengths.
+    Rows(usize),
 }
 
 impl Helpers {
@@ -111,7 +118,7 @@ impl Helpers {
         let Kind::Primitive(table) = &shape.kind else { unreachable!("a primitive") };
         let record = |graph: &Graph, count: usize| {
             let point: [expr::Expr<'_>; 3] = graph.point();
-            (table.kernels.expr)(point.into(), &Constants::new(point[0], &Slots(0), count)).id()
+            (table.kernels.expr)(point.into(), &Constants::new(point[0], &Slots::at(0), count)).id()
         };
         let arguments = vec![("p", Type::Vector(3), at)];
         let inputs: Vec<Expr> = ["x", "y", "z"].map(|axis| Expr::name("p").member(axis)).into();
@@ -129,7 +136,7 @@ impl Helpers {
         }
         let record = |graph: &Graph, count: usize| {
             let [a, b] = [0, 1].map(|input| graph.input(input));
-            (table.kernels.expr)(a, b, &Constants::new(a, &Slots(0), count)).id()
+            (table.kernels.expr)(a, b, &Constants::new(a, &Slots::at(0), count)).id()
         };
         self.of_values(want, shape, &[a, b], constants, &record)
     }
@@ -143,9 +150,9 @@ impl Helpers {
             None => {
                 let graph = Graph::new();
                 let [x, y] = [0, 1].map(|input| graph.input(input));
-                let share = (table.share)(x, y, &Constants::new(x, &Slots(0), constants.count));
+                let share = (table.share)(x, y, &Constants::new(x, &Slots::at(0), constants.count));
                 let inputs = ["a", "b"].map(Expr::name);
-                let (mut body, mut results) = statements(&graph, &[share], &inputs, &|slot| passing.slot(slot));
+                let (mut body, mut results) = statements(&graph, &[share], &inputs, &passing);
                 body.push(Statement::Return(results.remove(0)));
                 let values = vec![("a", Type::Float), ("b", Type::Float)];
                 self.define(key, values, &passing, Type::Float, body, Vec::new())
@@ -168,19 +175,19 @@ impl Helpers {
             None => {
                 let graph = Graph::new();
                 let point: [expr::Expr<'_>; 3] = graph.point();
-                let constants = Constants::new(point[0], &Slots(0), constants.count);
+                let slots = Slots::at(0);
+                let constants = Constants::new(point[0], &slots, constants.count);
                 let mapped = (table.kernels.expr)(point.into(), &constants);
                 let results = [mapped.x, mapped.y, mapped.z];
                 let inputs: Vec<Expr> = ["x", "y", "z"].map(|axis| Expr::name("p").member(axis)).into();
-                let slot = |slot: usize| passing.slot(slot);
                 let comment = vec![shape.about.summary.to_owned()];
                 let (ty, body, comment) = match wants {
                     Mapping::Point => {
-                        let (mut body, parts) = statements(&graph, &results, &inputs, &slot);
+                        let (mut body, parts) = statements(&graph, &results, &inputs, &passing);
                         body.push(Statement::Return(Expr::vector(parts)));
                         (Type::Vector(3), body, comment)
                     }
-                    Mapping::Derivative => (Type::Matrix, derivative(&graph, &results, &inputs, &slot), Vec::new()),
+                    Mapping::Derivative => (Type::Matrix, derivative(&graph, &results, &inputs, &passing), Vec::new()),
                 };
                 self.define(key, vec![("p", Type::Vector(3))], &passing, ty, body, comment)
             }
@@ -193,7 +200,7 @@ impl Helpers {
         let Kind::Modify(table) = &shape.kind else { unreachable!("a change of values") };
         let record = |graph: &Graph, count: usize| {
             let value = graph.input(0);
-            (table.kernels.expr)(value, &Constants::new(value, &Slots(0), count)).id()
+            (table.kernels.expr)(value, &Constants::new(value, &Slots::at(0), count)).id()
         };
         self.of_values(want, shape, &[from], constants, &record)
     }
@@ -265,11 +272,10 @@ impl Helpers {
         let _ = [0, 1].map(|input| graph.input(input));
         let result = graph.at(record(&graph, constants));
         let letters = &["a", "b"][..count];
-        let slot = |slot| passing.slot(slot);
         match want {
             Want::Value => {
                 let inputs: Vec<Expr> = letters.iter().map(|&letter| Expr::name(letter)).collect();
-                let (mut body, mut results) = statements(&graph, &[result], &inputs, &slot);
+                let (mut body, mut results) = statements(&graph, &[result], &inputs, passing);
                 body.push(Statement::Return(results.remove(0)));
                 let values = letters.iter().map(|&letter| (letter, Type::Float)).collect();
                 self.define(key, values, passing, Type::Float, body, Vec::new())
@@ -279,7 +285,7 @@ impl Helpers {
                 let derivatives = Graph::new();
                 let dual: Dual<expr::Expr<'_>, 2> = graph.differentiate(&[result], &derivatives).remove(0);
                 let wanted: Vec<expr::Expr<'_>> = dual.gradient[..count].iter().copied().chain([dual.value]).collect();
-                let (mut body, mut results) = statements(&derivatives, &wanted, &inputs, &slot);
+                let (mut body, mut results) = statements(&derivatives, &wanted, &inputs, passing);
                 let value = results.pop().expect("the value was wanted");
                 let sum = letters.iter().zip(results).filter_map(|(&letter, by)| {
                     let gradient = Expr::name(letter).member("xyz");
@@ -320,12 +326,12 @@ impl Helpers {
                 let values = arguments.iter().map(|(name, ty, _)| (*name, ty.clone())).collect();
                 let (ty, body, comment) = match want {
                     Want::Value => {
-                        let (mut body, mut results) = statements(&graph, &[result], inputs, &|slot| passing.slot(slot));
+                        let (mut body, mut results) = statements(&graph, &[result], inputs, &passing);
                         body.push(Statement::Return(results.remove(0)));
                         (Type::Float, body, vec![shape.about.summary.to_owned()])
                     }
                     Want::Gradient => {
-                        let (body, results) = dual_statements(&graph, result, inputs, &|slot| passing.slot(slot));
+                        let (body, results) = dual_statements(&graph, result, inputs, &passing);
                         let (value, by) = results.split_last().expect("a value");
                         let mut parts = gradient(by);
                         parts.push(value.clone());
@@ -362,6 +368,7 @@ impl Helpers {
                 }
             }
             Passing::First => arguments.push(("first".into(), Type::Int)),
+            Passing::Rows(_) => arguments.extend(["first", ROWS].map(|name| (name.into(), Type::Int))),
         }
         self.functions.push(Function { name: name.clone(), comment, arguments, result, body });
         let known = Known { name, takes };
@@ -374,10 +381,23 @@ impl Helpers {
         let name = shape.about.name;
         let names = constant_names(shape, count);
         let key = if suffix.is_empty() { name.to_owned() } else { format!("{name}_{suffix}") };
-        match count {
-            0..=MOST_ARGUMENTS => (Passing::Each(names), key),
-            _ => (Passing::First, format!("{key}_{count}")),
+        match (rows(shape, count), count) {
+            (Some(rows), _) => (Passing::Rows(rows), key),
+            (None, 0..=MOST_ARGUMENTS) => (Passing::Each(names), key),
+            (None, _) => (Passing::First, format!("{key}_{count}")),
         }
+    }
+}
+
+/// How many rows a primitive's constants are, if it goes through all of them row by row and does nothing else.
+fn rows(shape: &Shape, count: usize) -> Option<usize> {
+    let Kind::Primitive(table) = &shape.kind else { return None };
+    let graph = Graph::new();
+    let point: [expr::Expr<'_>; 3] = graph.point();
+    (table.kernels.expr)(point.into(), &Constants::new(point[0], &Slots::at(0), count));
+    match graph.loops().as_slice() {
+        [only] => only.row.map(|_| only.limit as usize),
+        _ => None,
     }
 }
 
@@ -386,13 +406,13 @@ pub(crate) fn derivative(
     graph: &Graph,
     point: &[expr::Expr<'_>; 3],
     inputs: &[Expr],
-    slot: &dyn Fn(usize) -> Expr,
+    table: &dyn Table,
 ) -> Vec<Statement> {
     let derivatives = Graph::new();
     let duals = graph.differentiate::<3>(point, &derivatives);
     let columns: Vec<expr::Expr<'_>> =
         (0..3).flat_map(|axis| duals.iter().map(move |dual| dual.gradient[axis])).collect();
-    let (mut body, parts) = statements(&derivatives, &columns, inputs, slot);
+    let (mut body, parts) = statements(&derivatives, &columns, inputs, table);
     let columns = parts.chunks(3).map(|column| Expr::vector(column.iter().cloned()));
     body.push(Statement::Return(Expr::Make(Type::Matrix, columns.collect())));
     body
@@ -403,12 +423,12 @@ pub(crate) fn dual_statements(
     graph: &Graph,
     result: expr::Expr<'_>,
     inputs: &[Expr],
-    slot: &dyn Fn(usize) -> Expr,
+    table: &dyn Table,
 ) -> (Vec<Statement>, Vec<Expr>) {
     let derivatives = Graph::new();
     let dual: Dual<expr::Expr<'_>, 3> = graph.differentiate(&[result], &derivatives).remove(0);
     let [x, y, z] = dual.gradient;
-    statements(&derivatives, &[x, y, z, dual.value], inputs, slot)
+    statements(&derivatives, &[x, y, z, dual.value], inputs, table)
 }
 
 impl Want {
@@ -420,20 +440,32 @@ impl Want {
     }
 }
 
-impl Passing {
+impl Table for Passing {
     fn slot(&self, slot: usize) -> Expr {
         match self {
             Self::Each(names) => Expr::name(&*names[slot]),
-            Self::First => Expr::Parameter(Box::new(Expr::name("first") + Expr::Int(slot as i64))),
+            Self::First | Self::Rows(_) => Expr::Parameter(Box::new(Expr::name("first") + Expr::Int(slot as i64))),
         }
     }
 
+    fn rows(&self, recorded: u32) -> Expr {
+        match self {
+            Self::Rows(_) => Expr::name(ROWS),
+            _ => Expr::Int(recorded.into()),
+        }
+    }
+}
+
+impl Passing {
     fn call(&self, known: Known, mut values: Vec<Expr>, constants: Own) -> Expr {
         match self {
             Self::Each(_) => {
                 values.extend(known.takes.iter().map(|place| constants.base.parameter(constants.first + place)));
             }
             Self::First => values.push(constants.base.place(constants.first)),
+            Self::Rows(rows) => {
+                values.extend([constants.base.place(constants.first), Expr::Int(*rows as i64)]);
+            }
         }
         Expr::Call(known.name, values)
     }

@@ -6,7 +6,7 @@ use crate::formula::statements;
 use crate::helpers::{Base, Helpers, Mapping, Own, Want, derivative, dual_statements};
 use crate::names::Names;
 use crate::tree::{Expr, Function, Statement, Type};
-use freikugel_field::expr::{self, Graph, Slots};
+use freikugel_field::expr::{self, Graph, Loop, Slots};
 use freikugel_field::field::Origin;
 use freikugel_field::formula::Binary;
 use freikugel_field::shapes;
@@ -79,9 +79,10 @@ impl Part {
             Kind::Primitive(table) => {
                 let graph = Graph::new();
                 let point = graph.point();
-                (table.kernels.expr)(point.into(), &freikugel_field::Constants::new(point[0], &Slots(0), count));
-                // Few loops run to their limit.
-                graph.terms().len() * (1 + 4 * graph.loops().len())
+                (table.kernels.expr)(point.into(), &freikugel_field::Constants::new(point[0], &Slots::at(0), count));
+                // Lists are gone through to their end; few other loops run to their limit.
+                let steps = |this: &Loop| if this.row.is_some() { this.limit as usize } else { 4 };
+                graph.terms().len() * (1 + graph.loops().iter().map(steps).sum::<usize>())
             }
             _ => COST_OF_PRIMITIVE,
         };
@@ -431,7 +432,7 @@ impl<'a> Walk<'a> {
         for (index, _) in self.needed(roots).into_iter().enumerate().filter(|(_, is_needed)| *is_needed) {
             let term = match self.part.outline.steps[index] {
                 Action::Coordinate { axis, .. } => inputs[axis],
-                Action::Literal { constant } => inputs[0].constant(&Slots(constant as u32), 0),
+                Action::Literal { constant } => inputs[0].constant(&Slots::at(constant as u32), 0),
                 Action::Unary { op, from } => op.apply(terms[&from]),
                 Action::Binary { op, a, b } => op.apply(terms[&a], terms[&b]),
                 Action::Power { from, exponent } => terms[&from].powi(exponent),

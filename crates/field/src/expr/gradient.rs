@@ -100,7 +100,7 @@ impl<'g, const N: usize> Again<'g, N> {
             }
             Term::Slot(slot) => {
                 let like = self.into.input(0);
-                Done::Number(Dual::independent(like.constant(&Slots(slot), 0)))
+                Done::Number(Dual::independent(like.constant(&Slots::at(slot), 0)))
             }
             Term::Literal(bits) => Done::Number(Dual::independent(self.into.input(0).lift(f64::from_bits(bits)))),
             Term::Unary(Unary::Not, a) => Done::Condition(!self.condition(a)),
@@ -114,7 +114,7 @@ impl<'g, const N: usize> Again<'g, N> {
             Term::Length(a, b, None) => Done::Number(Dual::length2(self.number(a), self.number(b))),
             Term::Length(a, b, Some(c)) => Done::Number(Dual::length3(self.number(a), self.number(b), self.number(c))),
             Term::Select(c, a, b) => Done::Number(Dual::select(self.condition(c), self.number(a), self.number(b))),
-            Term::State(..) => return None,
+            Term::State(..) | Term::RowSlot(..) => return None,
             Term::Result(l, place) => {
                 let this = match self.ended.iter().find(|(of, _)| *of == l) {
                     Some(&(_, this)) => this,
@@ -141,22 +141,27 @@ impl<'g, const N: usize> Again<'g, N> {
     }
 
     fn run_loop(&mut self, l: u32) -> u32 {
-        let Loop { limit, start, next, go_on } = self.loops[l as usize].clone();
+        let Loop { limit, start, next, go_on, row } = self.loops[l as usize].clone();
         let flat = |again: &Self, ids: &[u32]| -> Vec<u32> {
             let number = |&id: &u32| again.number(id);
             ids.iter().map(number).flat_map(|n| std::iter::once(n.value.id).chain(n.gradient.map(|d| d.id))).collect()
         };
-        let this = self.into.begin_loop(limit, flat(self, &start));
+        let this = self.into.begin_loop(limit, row, flat(self, &start));
         for id in 0..self.terms.len() {
-            if let Term::State(of, place) = self.terms[id]
-                && of == l
-            {
-                self.done[id] = Some(Done::Number(self.spread(place, |place| Term::State(this, place))));
+            match self.terms[id] {
+                Term::State(of, place) if of == l => {
+                    self.done[id] = Some(Done::Number(self.spread(place, |place| Term::State(this, place))));
+                }
+                Term::RowSlot(of, slot) if of == l => {
+                    let number = self.into.term(Term::RowSlot(this, slot));
+                    self.done[id] = Some(Done::Number(Dual::independent(number)));
+                }
+                _ => {}
             }
         }
         self.block(Some(l));
         let next = flat(self, &next);
-        self.into.end_loop(this, next, self.condition(go_on).0.id);
+        self.into.end_loop(this, next, go_on.map(|id| self.condition(id).0.id));
         this
     }
 }

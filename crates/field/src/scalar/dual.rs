@@ -194,6 +194,8 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
     type Mask = T::Mask;
     type Table = T::Table;
 
+    const IS_ENCLOSURE: bool = T::IS_ENCLOSURE;
+
     #[inline(always)]
     fn lift(self, c: f64) -> Self {
         Self::independent(self.value.lift(c))

@@ -292,6 +292,8 @@ impl Scalar for Interval {
     type Mask = Trilean;
     type Table = [f64];
 
+    const IS_ENCLOSURE: bool = true;
+
     fn lift(self, c: f64) -> Self {
         Self::point(c)
     }

@@ -318,6 +318,8 @@ impl<I: Simd> Scalar for Taylor<I> {
     type Mask = LaneTrilean<<Lanes<I> as Scalar>::Mask>;
     type Table = [f32];
 
+    const IS_ENCLOSURE: bool = true;
+
     #[inline(always)]
     fn lift(self, c: f64) -> Self {
         let near = c as f32;

@@ -1,7 +1,7 @@
 //! Convex polyhedron. Exact outside and inside.
 //!
-//! Inside, the nearest plane decides. Outside, the nearest point lies on a face, where the point's projection onto that
-//! face's plane is behind all other planes, or else on an edge. Faces and edges are found in `f64` when the numbers are
+//! Inside, the nearest plane decides. Outside, the nearest point lies on the face whose plane the point is farthest outside of, if
+//! its foot on that plane is behind all other planes, or else on an edge. Faces and edges are found in `f64` when the numbers are
 //! bound; a polyhedron of n planes has at most 3n - 6 edges (Euler), and that many are always stored, the last one
 //! repeated, so that moving a plane never changes the structure.
 
@@ -41,6 +41,9 @@ const MAX_PLANES: usize = 64;
 
 /// Lengths below this share of the polyhedron's size count as 0 when edges are found.
 const TINY: f64 = 1e-9;
+
+/// Normals whose difference has a smaller square are those of one plane, or of parallel ones; single precision tells as much.
+const SAME_NORMAL: f64 = 1e-12;
 
 /// A plane: unit normal and offset.
 type HalfSpace = (DVec3, f64);
@@ -92,13 +95,18 @@ pub(crate) fn edges(planes: &[HalfSpace]) -> Vec<(DVec3, DVec3)> {
     edges
 }
 
+/// How many constants a plane has, and an edge.
+const PLANE: usize = 4;
+const EDGE: usize = 7;
+
+/// How many edges are stored for so many planes.
+const fn edge_count(planes: usize) -> usize {
+    3 * planes - 6
+}
+
 /// How many planes lead to `count` constants.
 const fn plane_count(count: usize) -> usize {
-    let mut planes = 4;
-    while planes * 4 + planes * planes + (3 * planes - 6) * 7 < count {
-        planes += 1;
-    }
-    planes
+    (count + 6 * EDGE) / (PLANE + 3 * EDGE)
 }
 
 impl Primitive for ConvexPolyhedron {
@@ -131,11 +139,8 @@ impl Primitive for ConvexPolyhedron {
     fn prepare(args: &[f64]) -> Vec<f64> {
         let planes = half_spaces(args);
         let mut constants: Vec<f64> = planes.iter().flat_map(|(n, d)| [n.x, n.y, n.z, *d]).collect();
-        for (a, _) in &planes {
-            constants.extend(planes.iter().map(|(b, _)| a.dot(*b)));
-        }
         let edges = edges(&planes);
-        let stored = 3 * planes.len() - 6;
+        let stored = edge_count(planes.len());
         for (from, to) in
             edges.iter().chain(std::iter::repeat(edges.last().unwrap_or(&(DVec3::ZERO, DVec3::X)))).take(stored)
         {
@@ -153,30 +158,78 @@ impl Primitive for ConvexPolyhedron {
     #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let planes = plane_count(c.count());
-        let mut inside = height(p, c, 0);
-        for i in 1..planes {
-            inside = inside.max(height(p, c, i));
-        }
-        let first_edge = 4 * planes + planes * planes;
-        let mut outside = edge(p, c, first_edge);
-        for i in 1..3 * planes - 6 {
-            outside = outside.min(edge(p, c, first_edge + 7 * i));
-        }
+        let (planes, edges) = (c.part(0, PLANE * planes), c.part(PLANE * planes, EDGE * edge_count(planes)));
+        let [inside, over] = if S::IS_ENCLOSURE { each_foot(p, &planes) } else { foot_of_farthest(p, &planes) };
+        let [nearest_edge] = S::fold_rows(
+            &edges,
+            EDGE,
+            [p.x.lift(f64::from(f32::MAX))],
+            #[inline(always)]
+            |[nearest], own| [nearest.min(edge(p, own))],
+        );
         let zero = p.x.lift(0.0);
-        for i in 0..planes {
-            let own = height(p, c, i);
-            // The height of the point's projection over every other plane.
-            let mut over = p.x.lift(-1.0);
-            for j in 0..planes {
-                if j != i {
-                    over = over.max(height(p, c, j) - c.at(4 * planes + planes * i + j) * own);
-                }
-            }
-            let is_beside = over.lt(zero) & zero.lt(own);
-            outside = S::select(is_beside, outside.min(own), outside);
-        }
-        S::select(zero.lt(inside), outside, inside)
+        let is_beside = zero.lt(inside) & zero.lt(over);
+        S::select(is_beside, nearest_edge, inside)
     }
+}
+
+/// How far outside of the plane the point is that it is farthest outside of, and its foot on that plane outside of all others: if the
+/// nearest point lies on a face at all, it lies on that plane's, for no half-space that holds the polyhedron is farther than the
+/// polyhedron.
+#[inline(always)]
+fn foot_of_farthest<S: Scalar>(p: Vec3<S>, planes: &Constants<'_, S>) -> [S; 2] {
+    let first = planes.part(0, PLANE);
+    let [x, y, z] = first.get();
+    let [inside, x, y, z] = S::fold_rows(
+        planes,
+        PLANE,
+        [height(p, &first, 0), x, y, z],
+        #[inline(always)]
+        |[most, x, y, z], plane| {
+            let own = height(p, plane, 0);
+            let is_farther = most.lt(own);
+            let [nx, ny, nz] = plane.get();
+            [most.max(own), S::select(is_farther, nx, x), S::select(is_farther, ny, y), S::select(is_farther, nz, z)]
+        },
+    );
+    [inside, over_others(p, planes, inside, vec3(x, y, z))]
+}
+
+/// The same by the feet on all planes: which plane is the farthest, enclosures may not know, but they know of each whether its foot
+/// lies on the face.
+#[inline(always)]
+fn each_foot<S: Scalar>(p: Vec3<S>, planes: &Constants<'_, S>) -> [S; 2] {
+    let lowest = p.x.lift(f64::from(f32::MIN));
+    S::fold_rows(
+        planes,
+        PLANE,
+        [lowest, lowest],
+        #[inline(always)]
+        |[most, over], plane| {
+            let own = height(p, plane, 0);
+            let [nx, ny, nz] = plane.get();
+            let own_over = over_others(p, planes, own, vec3(nx, ny, nz));
+            [most.max(own), S::select(most.lt(own), own_over, over)]
+        },
+    )
+}
+
+/// The largest height of a point's foot on a plane over all other planes. That over its own one would be nothing but rounding.
+#[inline(always)]
+fn over_others<S: Scalar>(p: Vec3<S>, planes: &Constants<'_, S>, height_over_own: S, own: Vec3<S>) -> S {
+    let foot = p - own * height_over_own;
+    let [over] = S::fold_rows(
+        planes,
+        PLANE,
+        [p.x.lift(f64::from(f32::MIN))],
+        #[inline(always)]
+        |[over], plane| {
+            let [nx, ny, nz] = plane.get();
+            let turn = (nx - own.x).square() + (ny - own.y).square() + (nz - own.z).square();
+            [S::select(turn.lt(turn.lift(SAME_NORMAL)), over, over.max(height(foot, plane, 0)))]
+        },
+    );
+    over
 }
 
 /// The height of a point above the plane whose index among half-spaces is `i`.
@@ -185,9 +238,9 @@ pub(crate) fn height<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>, i: usize) -> S
     p.dot(vec3(c.at(4 * i), c.at(4 * i + 1), c.at(4 * i + 2))) - c.at(4 * i + 3)
 }
 
-/// The distance from the edge whose constants start at `i`.
+/// The distance from the edge with these constants.
 #[inline(always)]
-fn edge<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>, i: usize) -> S {
-    let (from, along) = (vec3(c.at(i), c.at(i + 1), c.at(i + 2)), vec3(c.at(i + 3), c.at(i + 4), c.at(i + 5)));
-    segment(p, from, along, c.at(i + 6))
+fn edge<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
+    let [fx, fy, fz, ax, ay, az, inverse] = c.get();
+    segment(p, vec3(fx, fy, fz), vec3(ax, ay, az), inverse)
 }

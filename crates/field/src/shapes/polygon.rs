@@ -3,8 +3,9 @@
 //! The nearest of all edges gives the distance; whether the half-line to the right crosses an odd number of them gives the side.
 //! So does the half-line upwards: at the height of a corner one alone leaves enclosures of the side in the dark.
 
+use crate::scalar::Mask;
 use crate::shape_prelude::*;
-use std::ops::{BitAnd, BitOr, Not};
+use glam::DVec2;
 
 /// See [`polygon`].
 #[derive(Clone, Copy, Debug)]
@@ -46,6 +47,10 @@ impl Primitive for Polygon {
         }
     }
 
+    fn prepare(args: &[f64]) -> Vec<f64> {
+        edges(args)
+    }
+
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
         support_of_corners(args, direction, level)
     }
@@ -63,32 +68,54 @@ pub(crate) fn support_of_corners(corners: &[f64], direction: DVec3, level: f64) 
     in_plane(direction, |across| farthest + level * across)
 }
 
-/// The signed distance from a polygon whose corners are the constants.
+/// How many constants an edge has.
+const EDGE: usize = 6;
+
+/// The constants of the edges between corners: for each both ends, and the way from the second to the first over its squared length.
+pub(crate) fn edges(corners: &[f64]) -> Vec<f64> {
+    let count = corners.len() / 2;
+    let corner = |index: usize| DVec2::from_slice(&corners[2 * (index % count)..]);
+    (0..count)
+        .flat_map(|index| {
+            let (a, b) = (corner(index), corner(index + 1));
+            // An edge without length is a point, wherever a point is said to lie along it.
+            let along = (a - b) / (a - b).length_squared().max(f64::MIN_POSITIVE);
+            [a.x, a.y, b.x, b.y, along.x, along.y]
+        })
+        .collect()
+}
+
+/// The signed distance from a polygon whose [`edges`] are the constants.
 #[inline(always)]
 pub(crate) fn polygon_distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
     let (zero, one) = (p.x.lift(0.0), p.x.lift(1.0));
-    let count = c.count() / 2;
-    let (mut ax, mut ay) = (c.at(2 * count - 2), c.at(2 * count - 1));
-    // The way from the nearest point of all edges so far.
-    let (mut nx, mut ny) = (p.x - ax, p.y - ay);
-    let mut least = nx.square() + ny.square();
-    let (mut side, mut other_side) = (one, one);
-    for index in 0..count {
-        let (bx, by) = (c.at(2 * index), c.at(2 * index + 1));
-        let (ex, ey) = (ax - bx, ay - by);
-        let (wx, wy) = (p.x - bx, p.y - by);
-        let along = ((wx * ex + wy * ey) / (ex.square() + ey.square())).max(zero).min(one);
-        let (dx, dy) = (wx - ex * along, wy - ey * along);
-        let square = dx.square() + dy.square();
-        let is_nearer = square.lt(least);
-        least = square.min(least);
-        nx = S::select(is_nearer, dx, nx);
-        ny = S::select(is_nearer, dy, ny);
-        let is_left = (ey * wx).lt(ex * wy);
-        side = S::select(crosses(p.y.lt(by), p.y.lt(ay), is_left), -side, side);
-        other_side = S::select(crosses(p.x.lt(bx), p.x.lt(ax), !is_left), -other_side, other_side);
-        (ax, ay) = (bx, by);
-    }
+    let [ax, ay] = c.get();
+    // The way from the nearest point of all edges so far, its squared length, and the side by two half-lines.
+    let (nx, ny) = (p.x - ax, p.y - ay);
+    let start = [nx, ny, nx.square() + ny.square(), one, one];
+    let [nx, ny, least, side, other_side] = S::fold_rows(
+        c,
+        EDGE,
+        start,
+        #[inline(always)]
+        |[nx, ny, least, side, other_side], edge| {
+            let [ax, ay, bx, by, ux, uy] = edge.get();
+            let (ex, ey) = (ax - bx, ay - by);
+            let (wx, wy) = (p.x - bx, p.y - by);
+            let along = (wx * ux + wy * uy).max(zero).min(one);
+            let (dx, dy) = (wx - ex * along, wy - ey * along);
+            let square = dx.square() + dy.square();
+            let is_nearer = square.lt(least);
+            let is_right = (ey * wx).lt(ex * wy);
+            [
+                S::select(is_nearer, dx, nx),
+                S::select(is_nearer, dy, ny),
+                square.min(least),
+                S::select(crosses(p.y.lt(by), p.y.lt(ay), is_right), -side, side),
+                S::select(crosses(p.x.lt(bx), p.x.lt(ax), !is_right), -other_side, other_side),
+            ]
+        },
+    );
     // Where two edges are as near, an enclosure of the way from them holds all between.
     side.agreed(other_side) * S::length2(nx, ny).agreed(least.sqrt())
 }
@@ -96,6 +123,6 @@ pub(crate) fn polygon_distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S
 /// Whether a half-line from a point crosses an edge, by which ends of the edge lie beyond the line that the half-line is part of, and
 /// by the side of the edge on which the point lies.
 #[inline(always)]
-fn crosses<M: Copy + BitAnd<Output = M> + BitOr<Output = M> + Not<Output = M>>(starts: M, ends: M, is_left: M) -> M {
-    (!starts & ends & is_left) | (starts & !ends & !is_left)
+pub(crate) fn crosses<M: Mask>(starts: M, ends: M, is_right: M) -> M {
+    (!starts & ends & is_right) | (starts & !ends & !is_right)
 }

@@ -1,14 +1,15 @@
 //! Star in the plane. Exact: a polygon with corners on two circles in turn.
 
-use super::polygon::{polygon_distance, support_of_corners};
+use super::polygon::Polygon;
 use crate::shape_prelude::*;
+use std::f64::consts::PI;
 
 /// See [`star`].
 #[derive(Clone, Copy, Debug)]
 pub struct Star;
 
 /// The descriptor of [`star`].
-pub static STAR: Shape = Shape::primitive::<Star>();
+pub static STAR: Shape = Shape::special::<Star>();
 
 /// A star with so many tips at one distance from the origin, and notches between them at another one.
 #[track_caller]
@@ -16,7 +17,9 @@ pub fn star(tips: u32, outer: impl Into<Value>, inner: impl Into<Value>) -> Form
     Form::new(&STAR, [tips.into(), outer.into(), inner.into()])
 }
 
-impl Primitive for Star {
+impl Special for Star {
+    type General = Polygon;
+
     const ABOUT: About = About {
         name: "star",
         summary: "A plane figure: a star around the origin, with one tip on the y axis.",
@@ -29,24 +32,13 @@ impl Primitive for Star {
         example: r#"{ "extrude": { "height": 0.4, "shape": { "star": { "tips": 5, "outer": 1, "inner": 0.45 } } } }"#,
     };
 
-    const DIMENSION: Dimension = Dimension::Plane;
-
-    fn prepare(args: &[f64]) -> Vec<f64> {
-        let &[tips, outer, inner] = args else { unreachable!("three numbers") };
+    fn general(args: &[f64]) -> Vec<f64> {
+        let &[tips, outer, inner] = args else { unreachable!("3 numbers") };
         let corner = |index: u32| {
-            let (sin, cos) = libm::sincos(std::f64::consts::PI * f64::from(index) / tips);
+            let (sin, cos) = libm::sincos(PI * f64::from(index) / tips);
             let radius = if index.is_multiple_of(2) { outer } else { inner };
             [radius * sin, radius * cos]
         };
         (0..2 * tips as u32).flat_map(corner).collect()
-    }
-
-    fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
-        support_of_corners(&Self::prepare(args), direction, level)
-    }
-
-    #[inline(always)]
-    fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
-        polygon_distance(p, c)
     }
 }

@@ -73,6 +73,20 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
                 push(radius * angle.sin());
             }
         }
+        ParamKind::Contours => {
+            // A round-edged star, in which smaller ones may be holes, or overlap.
+            for reach in if random.below(2) == 0 { &[1.2][..] } else { &[1.2, 0.5][..] } {
+                let count = 2 + random.below(5);
+                for corner in 0..count {
+                    let angle = std::f64::consts::TAU * (corner as f64 + random.range(0.0, 0.7)) / count as f64;
+                    let radius = random.range(0.3, 1.0) * reach;
+                    push(radius * angle.cos() + 0.1);
+                    push(radius * angle.sin());
+                    push(if count > 2 && random.below(2) == 0 { 0.0 } else { random.range(-2.0, 4.0) });
+                    push(f64::from(u8::from(corner + 1 == count)));
+                }
+            }
+        }
         ParamKind::Counts(least, _) => (0..3).for_each(|_| push(f64::from(least) + random.below(3) as f64)),
         ParamKind::Size2 => (0..2).for_each(|_| push(random.range(0.3, 2.0))),
         ParamKind::Factors => (0..3).for_each(|_| push(sign * random.range(0.5, 2.0))),
@@ -214,6 +228,125 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
                 .collect();
             winds_around(&corners, p)
         }
+        ("outline", corners) => crossings(corners, p.truncate()) % 2 == 1,
+        ("sector", [radius, angle]) => across < *radius && from_y_axis(p) < angle / 2.0,
+        ("ring_sector", [outer, inner, angle]) => across < *outer && across > *inner && from_y_axis(p) < angle / 2.0,
+        ("arc", [radius, width, angle]) => {
+            let turn = from_y_axis(p).min(angle / 2.0);
+            let nearest = DVec2::new(turn.sin(), turn.cos()) * *radius;
+            DVec2::new(p.x.abs(), p.y).distance(nearest) < width / 2.0
+        }
+        ("circle_segment", [radius, height]) => across < *radius && p.y > *height,
+        ("lens", [width, height]) => {
+            // The circle through both tips and the end of the other axis.
+            let offset = (height * height - width * width) / (4.0 * width);
+            p.x.abs().powi(2) + 2.0 * p.x.abs() * offset + p.y * p.y < height * height / 4.0
+        }
+        ("moon", [outer, inner, distance]) => {
+            across < *outer && p.truncate().distance(DVec2::new(*distance, 0.0)) > *inner
+        }
+        ("horseshoe", [radius, width, angle, length]) => {
+            let q = DVec2::new(p.x.abs(), -p.y);
+            let is_on_arc = (across - radius).abs() < width / 2.0 && q.x.atan2(q.y) < angle / 2.0;
+            // The leg in coordinates along the radius at its foot, and along itself.
+            let (out, on) = (DVec2::new((angle / 2.0).sin(), (angle / 2.0).cos()), angle / 2.0);
+            let along = DVec2::new(on.cos(), -on.sin());
+            is_on_arc || ((q.dot(out) - radius).abs() < width / 2.0 && q.dot(along) > 0.0 && q.dot(along) < *length)
+        }
+        ("uneven_capsule", [bottom, top, height]) => {
+            let (mut low, mut high) = (0.0, 1.0);
+            let at = |share: f64| {
+                p.truncate().distance(DVec2::new(0.0, height * (share - 0.5))) - (bottom + (top - bottom) * share)
+            };
+            for _ in 0..60 {
+                let third = (high - low) / 3.0;
+                if at(low + third) < at(high - third) {
+                    high -= third;
+                } else {
+                    low += third;
+                }
+            }
+            at(low) < 0.0
+        }
+        ("heart", [width]) => {
+            // In units of the square's side, from its lower corner, along two of its sides.
+            let side = width / (1.0 + 0.5_f64.sqrt());
+            let bottom = -(side / 2.0_f64.sqrt() + side * (0.5 / 2.0_f64.sqrt() + 0.5)) / 2.0;
+            let q = DVec2::new(p.x.abs() + (p.y - bottom), (p.y - bottom) - p.x.abs()) / (2.0_f64.sqrt() * side);
+            (q.max_element() < 1.0 && q.min_element() > 0.0) || q.distance(DVec2::new(1.0, 0.5)) < 0.5
+        }
+        ("arch", [width, height]) => {
+            let middle = (height - width) / 2.0;
+            (p.x.abs() < width / 2.0 && p.y > -height / 2.0 && p.y <= middle)
+                || (p.y > -height / 2.0 && p.truncate().distance(DVec2::new(0.0, middle)) < width / 2.0)
+        }
+        ("cross", [size, width, round]) => {
+            let bar = |long: f64, short: f64| {
+                let core = DVec2::new(size / 2.0 - round, width / 2.0 - round);
+                let q = DVec2::new(long.abs(), short.abs());
+                (q - core).max(DVec2::ZERO).length() < *round
+                    || (q.cmplt(core).all())
+                    || (q.x < size / 2.0 - round && q.y < width / 2.0)
+            };
+            bar(p.x, p.y) || bar(p.y, p.x)
+        }
+        ("egg", [bottom, top]) => {
+            let (q, reach) = (DVec2::new(p.x.abs(), p.y), bottom - top);
+            let tip = DVec2::new(0.0, 3.0_f64.sqrt() * reach);
+            match q {
+                q if q.y <= 0.0 => q.length() < *bottom,
+                // Above the line from the middle of the arc at the side through that of the tip.
+                q if 3.0_f64.sqrt() * (q.x + reach) < q.y => q.distance(tip) < *top,
+                q => q.distance(DVec2::new(-reach, 0.0)) < 2.0 * reach + top,
+            }
+        }
+        ("rhombus", [x, y]) => p.x.abs() / (x / 2.0) + p.y.abs() / (y / 2.0) < 1.0,
+        ("trapezoid", [bottom, top, height]) => {
+            let share = p.y / height + 0.5;
+            (0.0..1.0).contains(&share) && 2.0 * p.x.abs() < bottom + (top - bottom) * share
+        }
+        ("parallelogram", [width, height, skew]) => {
+            p.y.abs() < height / 2.0 && (p.x - skew * p.y / height).abs() < width / 2.0
+        }
+        ("chamfered_rectangle", [x, y, chamfer]) => {
+            let q = DVec2::new(x / 2.0, y / 2.0) - p.truncate().abs();
+            q.min_element() > 0.0 && q.x + q.y > *chamfer
+        }
+        ("staircase", [width, height, steps]) => {
+            let (x, y) = (p.x / width + 0.5, p.y / height + 0.5);
+            x > 0.0 && x < 1.0 && y > 0.0 && y < (x * steps).ceil() / steps
+        }
+        ("tetrahedron", [radius]) => {
+            let edge = 3.0_f64.sqrt() / radius;
+            let q = p * edge;
+            (q.x + q.y - q.z).max(q.x - q.y + q.z).max(-q.x + q.y + q.z).max(-q.x - q.y - q.z) < 1.0
+        }
+        ("dodecahedron", [radius]) => {
+            let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
+            let q = p.abs();
+            // The corner (1, 1, 1) lies on these faces.
+            let limit = radius / 3.0_f64.sqrt() * (1.0 + golden);
+            (golden * q.x + q.y).max(golden * q.y + q.z).max(golden * q.z + q.x) < limit
+        }
+        ("icosahedron", [radius]) => {
+            let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
+            let q = p.abs();
+            // The corner (0, 1, golden) lies on these faces.
+            let limit = radius / (1.0 + golden * golden).sqrt() * (1.0 + golden);
+            let others = [(q.y, q.z), (q.z, q.x), (q.x, q.y)];
+            q.element_sum() < limit && others.iter().all(|(a, b)| a * golden + b / golden < limit)
+        }
+        ("truncated_octahedron", [radius]) => p.abs().max_element() < *radius && p.abs().element_sum() < 1.5 * radius,
+        ("chamfered_box", [x, y, z, chamfer]) => {
+            let q = DVec3::new(*x, *y, *z) / 2.0 - p.abs();
+            q.min_element() > 0.0 && (q.x + q.y).min(q.y + q.z).min(q.z + q.x) > *chamfer
+        }
+        ("pyramid", [x, y, height, top]) => {
+            let share = p.z / height + 0.5;
+            let size = 1.0 + (top - 1.0) * share;
+            (0.0..1.0).contains(&share) && p.x.abs() < x / 2.0 * size && p.y.abs() < y / 2.0 * size
+        }
+        ("wedge", [x, y, z]) => p.x > -x / 2.0 && p.y.abs() < y / 2.0 && p.z > -z / 2.0 && p.x / x + p.z / z < 0.0,
         ("regular_polygon", [sides, radius, round]) => {
             // Within the smaller polygon, or near one of its corners or sides.
             let step = std::f64::consts::PI / sides;
@@ -362,6 +495,39 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         (name, _) if is_blend(name) => return None,
         (name, args) => panic!("say in the membership test what lies inside {name} with {} numbers", args.len()),
     })
+}
+
+/// The angle between a point of the plane and the y axis, from 0 to half a turn.
+fn from_y_axis(p: DVec3) -> f64 {
+    p.x.abs().atan2(p.y)
+}
+
+/// How many edges of an outline a ray from a point meets that leads in no special direction.
+fn crossings(corners: &[f64], p: DVec2) -> usize {
+    let ray = DVec2::from_angle(0.7345);
+    let corners: Vec<&[f64]> = corners.chunks_exact(4).collect();
+    let (mut count, mut first) = (0, 0);
+    for (index, corner) in corners.iter().enumerate() {
+        let next = if corner[3] == 1.0 { std::mem::replace(&mut first, index + 1) } else { index + 1 };
+        let (a, b, turn) = (DVec2::from_slice(corner), DVec2::from_slice(corners[next]), corner[2]);
+        if turn == 0.0 {
+            let normal = (b - a).perp();
+            let t = (a - p).dot(normal) / ray.dot(normal);
+            let share = (p + ray * t - a).dot(b - a) / (b - a).length_squared();
+            count += usize::from(t > 0.0 && (0.0..1.0).contains(&share));
+            continue;
+        }
+        // From the middle of the arc's circle, by turning the chord: its ends lie at minus and plus half the angle.
+        let middle = (a + b) / 2.0 + (b - a).perp() / 2.0 / (turn / 2.0).tan();
+        let (q, radius) = (p - middle, a.distance(middle));
+        let root = q.dot(ray).powi(2) - q.length_squared() + radius * radius;
+        for t in [-1.0, 1.0].map(|sign| -q.dot(ray) + sign * root.sqrt()).into_iter().filter(|&t| t > 0.0) {
+            let from_start = (a - middle).angle_to(q + ray * t) * turn.signum();
+            let from_start = from_start.rem_euclid(std::f64::consts::TAU);
+            count += usize::from(from_start < turn.abs());
+        }
+    }
+    count
 }
 
 /// Whether a point lies inside a polygon an odd number of times: the angles under which its edges are seen make whole turns.

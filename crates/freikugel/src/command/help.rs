@@ -107,6 +107,7 @@ fn values(param: &Param) -> String {
         ParamKind::Quadruple => "[real, i, j, k]".into(),
         ParamKind::Region => "{ \"sphere\": radius } or { \"box\": size }".into(),
         ParamKind::Points2 => "a list of [x, y]".into(),
+        ParamKind::Contours => "a list of [x, y] or [x, y, angle], or a list of such lists".into(),
         ParamKind::HalfSpaces => "a list of [x, y, z, d]".into(),
     };
     let default = match (param.default, param.kind) {

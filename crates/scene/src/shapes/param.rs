@@ -53,6 +53,7 @@ impl Notation<Vec<f64>> for ParamKind {
             (Self::Quadruple, _) => reader.numbers(value, ["real", "i", "j", "k"])?.to_vec(),
             (Self::Region, _) => region(reader, value)?,
             (Self::HalfSpaces, _) => entries(reader, value, "half-spaces, [x, y, z, d]", ["x", "y", "z", "d"])?,
+            (Self::Contours, _) => contours(reader, value)?,
             (Self::Points2, _) => entries(reader, value, "points, [x, y]", ["x", "y"])?,
         };
         let fault = if numbers.is_empty() { Some(NO_ENTRIES.into()) } else { ParamKind::fault(*self, &numbers) };
@@ -77,6 +78,21 @@ impl Notation<Vec<f64>> for ParamKind {
             },
             Self::HalfSpaces => value.chunks(4).map(list).collect(),
             Self::Points2 => value.chunks(2).map(list).collect(),
+            Self::Contours => {
+                let corner = |c: &[f64]| match c[2] {
+                    0.0 => list(&c[..2]),
+                    turn => json!([tidy(c[0]), tidy(c[1]), tidy_degrees(turn)]),
+                };
+                let corners: Vec<&[f64]> = value.chunks(4).collect();
+                let lines: Vec<Json> = corners
+                    .split_inclusive(|c| c[3] != 0.0)
+                    .map(|line| line.iter().map(|c| corner(c)).collect())
+                    .collect();
+                match lines.len() {
+                    1 => lines.into_iter().next()?,
+                    _ => Json::Array(lines),
+                }
+            }
             Self::Vector
             | Self::Direction
             | Self::Size
@@ -131,6 +147,15 @@ impl Notation<Vec<f64>> for ParamKind {
             }
             Self::HalfSpaces => json!({ "type": "array", "items": numbers_schema(4), "minItems": 1 }),
             Self::Points2 => json!({ "type": "array", "items": numbers_schema(2), "minItems": 1 }),
+            Self::Contours => {
+                let turn = json!({ "type": "number", "exclusiveMinimum": -360, "exclusiveMaximum": 360 });
+                let number = || json!({ "type": "number" });
+                let corner = json!({
+                    "type": "array", "prefixItems": [number(), number(), turn], "items": false, "minItems": 2, "maxItems": 3,
+                });
+                let line = || json!({ "type": "array", "items": corner, "minItems": 2 });
+                json!({ "anyOf": [line(), { "type": "array", "items": line(), "minItems": 1 }] })
+            }
         }
     }
 }
@@ -180,6 +205,54 @@ fn region(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
             None
         }
     }
+}
+
+/// A closed line, or a list of several: lists of corners, [x, y] or [x, y, angle].
+fn contours(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
+    const WHAT: &str = "a list of corners, [x, y] or [x, y, angle] each, or a list of such lists";
+    let Written::Array(array) = value else {
+        reader.mistyped(value, WHAT, None);
+        return None;
+    };
+    // What holds lists of lists holds several lines.
+    let is_line = |value: &Written<'_>| match value {
+        Written::Array(line) => line.elements.first().is_some_and(|first| matches!(first, Written::Array(_))),
+        _ => false,
+    };
+    if !array.elements.iter().any(is_line) {
+        return contour(reader, value);
+    }
+    let outer = reader.label().to_string();
+    let lines: Vec<Option<Vec<f64>>> = (1..)
+        .zip(&array.elements)
+        .map(|(number, line)| reader.labelled(format!("line {number} of {outer}"), |reader| contour(reader, line)))
+        .collect();
+    Some(lines.into_iter().collect::<Option<Vec<_>>>()?.concat())
+}
+
+/// A closed line: a list of corners.
+fn contour(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
+    let Written::Array(array) = value else {
+        reader.mistyped(value, "a list of corners, [x, y] or [x, y, angle] each", None);
+        return None;
+    };
+    if array.elements.len() < 2 {
+        reader.error(span(value), "a line has at least two corners", None);
+        return None;
+    }
+    let outer = reader.label().to_string();
+    let mut corners = Vec::new();
+    let mut is_sound = true;
+    for (number, element) in (1..).zip(&array.elements) {
+        let corner = reader.labelled(format!("corner {number} of {outer}"), |reader| match element {
+            Written::Array(parts) if parts.elements.len() == 3 => reader.numbers(element, ["x", "y", "angle"]),
+            _ => reader.numbers(element, ["x", "y"]).map(|[x, y]| [x, y, 0.0]),
+        });
+        is_sound &= corner.is_some();
+        let [x, y, degrees] = corner.unwrap_or_default();
+        corners.extend([x, y, degrees.to_radians(), f64::from(u8::from(number == array.elements.len()))]);
+    }
+    is_sound.then_some(corners)
 }
 
 /// A list of entries that are lists of numbers themselves.
@@ -256,6 +329,10 @@ mod tests {
             (ParamKind::Factors, "[1, 0, 1]"),
             (ParamKind::Lengths, "[1, 0, -1]"),
             (ParamKind::Quaternion, "[0, 0, 0, 0]"),
+            (ParamKind::Contours, "[[1, 2], [3, 4, 360]]"),
+            (ParamKind::Contours, "[[1, 2]]"),
+            (ParamKind::Contours, "[[[1, 2], [3, 4, 90]], [1, 2]]"),
+            (ParamKind::Contours, "[[1, 2], [3, 4, 90, 1]]"),
         ] {
             assert!(read(kind, text).is_err(), "{kind:?} {text}");
         }
@@ -271,6 +348,8 @@ mod tests {
             (ParamKind::Size, json!([1, 2, 3])),
             (ParamKind::HalfSpaces, json!([[1, 0, 0, 0.5]])),
             (ParamKind::Points2, json!([[1, 0], [0.5, 2], [0, 1]])),
+            (ParamKind::Contours, json!([[1, 0], [0.5, 2, 90], [0, 1]])),
+            (ParamKind::Contours, json!([[[1, 0, 180], [0.5, 2]], [[0, 1], [1, 1], [2, 2, -30.5]]])),
         ] {
             let numbers = read(kind, &written.to_string()).expect("it is sound");
             assert_eq!(kind.write(&numbers), Some(written));

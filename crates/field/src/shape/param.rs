@@ -1,0 +1,184 @@
+//! What a user reads about a function, and its parameters.
+
+use glam::DVec3;
+
+/// What a user reads about a function, and what a reader of scenes needs to decode it.
+#[derive(Clone, Copy, Debug)]
+pub struct About {
+    /// The name in scene files and in the library.
+    pub name: &'static str,
+    /// One sentence: what it is.
+    pub summary: &'static str,
+    /// The parameters, in the order of the library's constructor. Only the last one may be a list.
+    pub params: &'static [Param],
+    /// Names of the same thing in other systems.
+    pub elsewhere: &'static [&'static str],
+    /// A complete shape in scene notation.
+    pub example: &'static str,
+}
+
+/// One parameter of a function.
+#[derive(Clone, Copy, Debug)]
+pub struct Param {
+    /// Its key in scene files.
+    pub name: &'static str,
+    /// What values it takes.
+    pub kind: ParamKind,
+    /// Its numbers if the user writes none; `None` for a required parameter.
+    pub default: Option<&'static [f64]>,
+    /// What it means, with its unit if it has one.
+    pub about: &'static str,
+}
+
+/// What values a parameter takes. Each kind is stored as a fixed number of `f64`, except the list.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ParamKind {
+    /// Any finite number.
+    Number,
+    /// A length, not negative.
+    Length,
+    /// A length above 0.
+    Positive,
+    /// A factor other than 0.
+    Factor,
+    /// A whole number, at least the first and at most the second one.
+    Count(u32, u32),
+    /// Three whole numbers, each at least the first and at most the second one; a single number stands for three equal ones.
+    Counts(u32, u32),
+    /// An angle: degrees in files, radians inside.
+    Angle,
+    /// One of several names, stored as its index. Files that were written with numbers may use those instead, where
+    /// every name is one.
+    Choice(&'static [&'static str]),
+    /// Yes or no, stored as 1 or 0.
+    Flag,
+    /// A point or displacement.
+    Vector,
+    /// A vector other than 0; its length does not matter.
+    Direction,
+    /// Three full lengths above 0; a single number stands for three equal ones.
+    Size,
+    /// Three lengths, not negative.
+    Lengths,
+    /// Two full lengths above 0; a single number stands for two equal ones.
+    Size2,
+    /// Three factors other than 0.
+    Factors,
+    /// Three angles about x, y and z.
+    Angles,
+    /// A quaternion x, y, z, w other than 0; its length does not matter.
+    Quaternion,
+    /// A quaternion by its real part and those along i, j and k.
+    Quadruple,
+    /// A region of space: stored as 0 for all of it, or 1 and a sphere's radius, or 2 and a box's three full edge lengths;
+    /// always four numbers.
+    Region,
+    /// A list of points of the plane: x, y.
+    Points2,
+    /// One or several closed lines of the plane: lists of corners x, y and the angle by which the edge to the next corner turns to the
+    /// left, 0 for a straight one; stored with a fourth number, 1 for the last corner of a line and otherwise 0.
+    Contours,
+    /// A list of half-spaces, each with an outward normal and the distance of its plane from the origin: x, y, z, d.
+    HalfSpaces,
+}
+
+impl ParamKind {
+    /// How many numbers hold one value (one entry, for a list).
+    pub const fn width(self) -> usize {
+        match self {
+            Self::Number
+            | Self::Length
+            | Self::Positive
+            | Self::Factor
+            | Self::Count(..)
+            | Self::Angle
+            | Self::Choice(_)
+            | Self::Flag => 1,
+            Self::Size2 | Self::Points2 => 2,
+            Self::Vector
+            | Self::Direction
+            | Self::Size
+            | Self::Lengths
+            | Self::Factors
+            | Self::Angles
+            | Self::Counts(..) => 3,
+            Self::Quaternion | Self::Quadruple | Self::Region | Self::HalfSpaces | Self::Contours => 4,
+        }
+    }
+
+    /// Whether the value is a list of entries.
+    pub const fn is_list(self) -> bool {
+        matches!(self, Self::HalfSpaces | Self::Points2 | Self::Contours)
+    }
+
+    /// Why `value` is not one of this kind, or `None` if it is. The numbers are as stored: angles in radians.
+    pub fn fault(self, value: &[f64]) -> Option<String> {
+        if value.iter().any(|v| !v.is_finite()) {
+            return Some("must be finite".into());
+        }
+        let length = value.iter().map(|v| v * v).sum::<f64>().sqrt();
+        match self {
+            Self::Length if value[0] < 0.0 => Some(format!("must not be negative, but is {}", brief(value[0]))),
+            Self::Positive if value[0] <= 0.0 => Some(format!("must be above 0, but is {}", brief(value[0]))),
+            Self::Factor if value[0] == 0.0 => Some("must not be 0: it would flatten the shape".into()),
+            Self::Count(..) if value[0].fract() != 0.0 => {
+                Some(format!("must be a whole number, but is {}", brief(value[0])))
+            }
+            Self::Count(least, most) if !(f64::from(least)..=f64::from(most)).contains(&value[0]) => {
+                Some(format!("must be from {least} to {most}, but is {}", brief(value[0])))
+            }
+            Self::Counts(least, most) if value.iter().any(|&v| Self::Count(least, most).fault(&[v]).is_some()) => {
+                Some(format!("must be whole numbers from {least} to {most}"))
+            }
+            Self::Lengths if value.iter().any(|&v| v < 0.0) => Some("must not be negative in any direction".into()),
+            Self::Size | Self::Size2 if value.iter().any(|&v| v <= 0.0) => {
+                Some("must be above 0 in every direction".into())
+            }
+            Self::Factors if value.contains(&0.0) => Some("must not be 0 in any direction".into()),
+            Self::Direction if length < SHORTEST_DIRECTION => Some("must not be the zero vector".into()),
+            Self::Quaternion if length < SHORTEST_DIRECTION => Some("must not be the zero quaternion".into()),
+            Self::Region => match *value {
+                [kind, radius, ..] if kind == 1.0 && radius <= 0.0 => Some("needs a radius above 0".into()),
+                [kind, ref size @ ..] if kind == 2.0 && size.iter().any(|&edge| edge <= 0.0) => {
+                    Some("needs a size above 0 in every direction".into())
+                }
+                [kind, ..] if ![0.0, 1.0, 2.0].contains(&kind) => Some("must be a sphere or a box".into()),
+                _ => None,
+            },
+            Self::HalfSpaces => value.chunks(4).enumerate().find_map(|(i, plane)| {
+                (DVec3::new(plane[0], plane[1], plane[2]).length() < SHORTEST_DIRECTION)
+                    .then(|| format!("entry {i} has a zero normal"))
+            }),
+            Self::Contours => value.chunks(4).enumerate().find_map(|(i, corner)| {
+                (corner[2].abs() >= std::f64::consts::TAU).then(|| {
+                    format!("must have edges that turn by less than 360 degrees, but corner {} has not", i + 1)
+                })
+            }),
+            _ => None,
+        }
+    }
+}
+
+/// A number for a message: no hundreds of digits.
+fn brief(number: f64) -> String {
+    if number == 0.0 || (1e-6..1e12).contains(&number.abs()) { number.to_string() } else { format!("{number:e}") }
+}
+
+/// Below this length a direction's components lose precision when it is normalised.
+pub const SHORTEST_DIRECTION: f64 = 1e-100;
+
+impl Param {
+    /// A parameter without default.
+    pub const fn required(name: &'static str, kind: ParamKind, about: &'static str) -> Self {
+        Self { name, kind, default: None, about }
+    }
+
+    /// A parameter with a default.
+    pub const fn optional(name: &'static str, kind: ParamKind, default: &'static [f64], about: &'static str) -> Self {
+        Self { name, kind, default: Some(default), about }
+    }
+}
+
+/// The axis an axial shape stands along; always its last parameter. Formulas are written for z.
+pub const AXIS: Param =
+    Param::optional("axis", ParamKind::Choice(&["x", "y", "z"]), &[2.0], "The axis it stands along.");
