@@ -1,6 +1,7 @@
 //! The pictures of the gallery, all made from scenes.
 
-use crate::run::{Result, root, run};
+use crate::reference;
+use crate::run::{Result, output, root, run};
 use std::path::{Path, PathBuf};
 
 /// Contact sheets: the file below `gallery/`, the command and its scene below `scenes/`, and further arguments.
@@ -31,6 +32,21 @@ pub(crate) fn gallery() -> Result {
     for (file, command, scene, arguments) in SHEETS {
         let scene = root.join("scenes").join(scene).display().to_string();
         make(&root, Path::new(file), &[&[command, scene.as_str()], arguments].concat())?;
+    }
+    thumbnails(&root)
+}
+
+/// A picture of each shape's example.
+fn thumbnails(root: &Path) -> Result {
+    let program = ["run", "--quiet", "--release", "-p", "freikugel", "--", "help", "shapes"];
+    let folder = root.join("target/reference");
+    std::fs::create_dir_all(&folder).map_err(|e| e.to_string())?;
+    for name in reference::names(root)? {
+        let scene = folder.join(&name).with_extension("json");
+        let text = output(root, "cargo", &[&program[..], &[&name, "--scene"]].concat())?;
+        std::fs::write(&scene, text).map_err(|e| e.to_string())?;
+        let below = Path::new("reference").join(&name).with_extension("png");
+        make(root, &below, &["render", "--small", &scene.display().to_string(), "--width", "240", "--height", "180"])?;
     }
     Ok(())
 }

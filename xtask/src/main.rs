@@ -5,6 +5,7 @@ mod compilers;
 mod gallery;
 mod install;
 mod probe;
+mod reference;
 mod run;
 mod shapes;
 mod test;
@@ -20,6 +21,7 @@ usage: cargo xtask COMMAND
   test-compilers  the part of it that needs compilers of shaders
   shapes          writes the list of shapes from the files under crates/field/src/shapes
   schema          writes schema/scene.schema.json
+  reference       writes docs/reference/shapes.md
   gallery         renders all scenes and contact sheets into gallery/
   probe-shape     proves that a new shape needs one file and nothing else
 ";
@@ -33,6 +35,7 @@ fn main() -> ExitCode {
         ["test-compilers"] => compilers::test(),
         ["shapes"] => shapes::write(&run::root()),
         ["schema"] => run::schema(&run::root()),
+        ["reference"] => reference::write(&run::root()),
         ["gallery"] => gallery::gallery(),
         ["probe-shape"] => probe::shape(),
         ["help" | "--help" | "-h"] => {

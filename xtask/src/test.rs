@@ -2,7 +2,7 @@
 
 use crate::install::{install, runs};
 use crate::run::{Result, SCHEMA, output, root, run, run_with};
-use crate::{browser, compilers, probe, shapes};
+use crate::{browser, compilers, probe, reference, shapes};
 use std::process::Command;
 
 /// Runs all checks, the quick ones first.
@@ -17,6 +17,7 @@ pub(crate) fn all() -> Result {
     run(&root, "cargo", &[&["clippy"][..], &workspace, &["--all-targets", "--", "-D", "warnings"]].concat())?;
     run(&root, "cargo", &[&["test"][..], &workspace].concat())?;
     schema_is_fresh()?;
+    reference::check()?;
     run_with(
         &root,
         "cargo",

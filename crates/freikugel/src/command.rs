@@ -12,9 +12,11 @@ mod help;
 mod info;
 mod input;
 mod interrupt;
+mod reference;
 mod render;
 mod shader;
 mod sheet;
+mod slice;
 mod sweep;
 mod view;
 
@@ -27,6 +29,7 @@ Examples:
   freikugel render scenes/first-light.json -o first-light.png
   freikugel render cup.json -o cup.exr --width 1920 --height 1080 --quality fine
   freikugel view cup.json
+  freikugel slice cup.json --axis y
   freikugel sweep cup.json --vary tracer.max_steps=5,10,100 -o steps.png
   freikugel compare cup.json
   freikugel bench --gpu
@@ -49,6 +52,8 @@ enum Command {
     Render(render::Arguments),
     /// Show a scene in a window, drawn by the graphics processor.
     View(view::Arguments),
+    /// Show the values of a scene's field in a plane: inside and outside, lines of equal distance, slopes.
+    Slice(slice::Arguments),
     /// Render a scene with several values of a number, as a contact sheet.
     Sweep(sweep::Arguments),
     /// Compare all tracers on a scene: steps, evaluations, time, wrong pixels.
@@ -117,6 +122,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::View(arguments) => view::run(&arguments),
+        Command::Slice(arguments) => slice::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),

@@ -309,7 +309,7 @@ impl std::error::Error for RenderError {
         match self {
             Self::Prepare(error) => Some(error),
             Self::Options(error) => Some(error),
-            Self::Memory | Self::Cancelled => None,
+            Self::Memory | Self::Lines(_) | Self::Cancelled => None,
         }
     }
 }

@@ -183,7 +183,7 @@ impl Slice {
 }
 
 /// More lines than these can't be told apart in any picture.
-pub const MOST_LINES: u32 = 10_000;
+const MOST_LINES: u32 = 10_000;
 
 /// Goes down the gradient from many points at once.
 struct Walker<'p> {

@@ -9,7 +9,7 @@ use crate::read::VersionNotation;
 use crate::record::{RecordNotation, record};
 use crate::settings::{Picture, Tracer};
 use crate::surroundings::{Ambient, AmbientNotation, Background, BackgroundNotation, Occlusion, OcclusionNotation};
-use freikugel_field::{Field, MaterialId};
+use freikugel_field::{Dimension, Field, MaterialId, analyse};
 use std::panic::Location;
 
 record! {
@@ -64,6 +64,12 @@ fn note(origins: &mut Vec<Option<&'static Location<'static>>>, count: usize, loc
 
 /// Building a scene in code. No step fails; [`Scene::check`] finds what is wrong.
 impl Scene {
+    /// Whether its objects are plane figures, through which no rays can be traced.
+    pub fn is_plane(&self) -> bool {
+        let mut analyses = self.objects.iter().filter_map(|object| analyse(&object.shape).0);
+        !self.objects.is_empty() && analyses.all(|analysis| analysis.contract.dimension == Dimension::Plane)
+    }
+
     /// A scene without objects, in the light of [`Light::rig`].
     pub fn new() -> Self {
         Self::default()

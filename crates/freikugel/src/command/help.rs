@@ -1,6 +1,6 @@
 //! `freikugel help`: the commands, and the shapes from their descriptors.
 
-use super::{Failure, print};
+use super::{Failure, print, reference};
 use clap::CommandFactory;
 use freikugel::field::{Arity, Kind, Param, ParamKind, Shape, shapes};
 use std::fmt::Write;
@@ -10,12 +10,23 @@ use std::fmt::Write;
 pub(super) struct Arguments {
     /// A command, or `shapes` and perhaps the name of one.
     topic: Vec<String>,
+    /// Print the example of a shape as a scene file.
+    #[arg(long)]
+    scene: bool,
+    /// Print the reference of all shapes as a page of Markdown.
+    #[arg(long, conflicts_with = "scene")]
+    markdown: bool,
 }
 
 /// Prints the explanation.
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let topic: Vec<&str> = arguments.topic.iter().map(String::as_str).collect();
     match topic[..] {
+        ["shapes"] if arguments.markdown => print(&reference::markdown()),
+        _ if arguments.markdown => Err(Failure::Usage("--markdown goes with `help shapes`".into())),
+        ref other if arguments.scene && !matches!(other, ["shapes", _]) => {
+            Err(Failure::Usage("--scene goes with `help shapes NAME`".into()))
+        }
         [] => print(&super::Arguments::command().render_help().to_string()),
         ["shapes"] => print(&list()),
         ["shapes", name] => {
@@ -23,7 +34,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             let shape = shape.ok_or_else(|| {
                 Failure::Usage(format!("there is no shape {name:?}; `freikugel help shapes` lists them"))
             })?;
-            print(&describe(shape))
+            print(&if arguments.scene { reference::example_scene(shape) } else { describe(shape) })
         }
         [name] => {
             let mut command = super::Arguments::command();
@@ -55,7 +66,8 @@ fn describe(shape: &Shape) -> String {
     let mut text = format!("{}: {}\n\n", about.name, about.summary);
     for param in about.params {
         let _ = writeln!(text, "  {:16} {}", param.name, param.about);
-        let _ = writeln!(text, "  {:16} {}", "", values(param));
+        let (takes, default) = values(param);
+        let _ = writeln!(text, "  {:16} ({takes}; {default})", "");
     }
     for param in shape.formulas() {
         let default = param.default.map_or("required".to_owned(), |text| format!("{text} if left out"));
@@ -82,8 +94,8 @@ fn describe(shape: &Shape) -> String {
     text
 }
 
-/// What a parameter takes, in a few words.
-fn values(param: &Param) -> String {
+/// What a parameter takes, in a few words, and what it is if left out.
+pub(super) fn values(param: &Param) -> (String, String) {
     let kind = match param.kind {
         ParamKind::Number => "a number".to_owned(),
         ParamKind::Length => "a length, 0 or more".into(),
@@ -120,5 +132,5 @@ fn values(param: &Param) -> String {
             format!("{} if left out", numbers.join(", "))
         }
     };
-    format!("({kind}; {default})")
+    (kind, default)
 }

@@ -33,7 +33,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Ok(());
     };
     match input::read(path)? {
-        Input::Scene(scene) => print(&describe(&scene)),
+        Input::Scene(scene) | Input::Figures(scene) => print(&describe(&scene)),
         Input::Region(region) => print(&describe(&Scene::of(region.field()))),
     }
 }

@@ -31,6 +31,8 @@ fn text_of(path: &Path) -> Result<String, String> {
 pub(super) enum Input {
     /// A scene, or a solid made one.
     Scene(Box<Scene>),
+    /// A scene of plane figures.
+    Figures(Box<Scene>),
     /// A region of the plane.
     Region(Region),
 }
@@ -39,7 +41,8 @@ pub(super) enum Input {
 pub(super) fn read(path: &Path) -> Result<Input, Failure> {
     let (text, name) = (text(path)?, name(path));
     if !is_model(path) {
-        return parsed(&text, &name).map(|scene| Input::Scene(Box::new(scene)));
+        let scene = Box::new(parsed(&text, &name)?);
+        return Ok(if scene.is_plane() { Input::Figures(scene) } else { Input::Scene(scene) });
     }
     match model::read(&text) {
         Ok(Model::Solid(scene)) => Ok(Input::Scene(scene)),
@@ -51,6 +54,10 @@ pub(super) fn read(path: &Path) -> Result<Input, Failure> {
     }
 }
 
+/// What is said of scenes through which no rays can be traced.
+const FIGURES: &str = "holds plane figures, through which no rays are traced: give them a height with `extrude`, or draw them with \
+                       `freikugel slice`";
+
 /// Whether a file's name says that it holds a model.
 fn is_model(path: &Path) -> bool {
     path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("vm"))
@@ -60,6 +67,7 @@ fn is_model(path: &Path) -> bool {
 pub(super) fn scene(path: &Path) -> Result<Scene, Failure> {
     match read(path)? {
         Input::Scene(scene) => Ok(*scene),
+        Input::Figures(_) => Err(Failure::Input(format!("{} {FIGURES}", name(path)))),
         Input::Region(_) => Err(Failure::Input(format!(
             "{} is a region of the plane, through which no rays are traced: its graph does not use z",
             name(path)

@@ -5,6 +5,7 @@ use super::frame::{Frame, Samples, Voxels, Watch, cannot_render, cannot_write, o
 use super::graphics::{self, Backend};
 use super::input::{self, Input};
 use super::interrupt::Interrupt;
+use super::slice::picture_of_figures;
 use freikugel::files::Format;
 use freikugel::model::Region;
 use freikugel::render::{Compression, Options, Rect, Rendered, Stats, render};
@@ -94,6 +95,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             scene.tracer.warning = arguments.warning_color.or(scene.tracer.warning);
             Options::of(scene)
         }
+        Input::Figures(scene) => Options::of(scene),
         Input::Region(_) => Region::options(),
     };
     options = Options { crop: arguments.crop, level, ..arguments.samples.over(arguments.frame.over(options)) };
@@ -111,25 +113,26 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let watch = Watch::new(arguments.quiet, &interrupt);
     let on_cpu = |input: &Input| match input {
         Input::Scene(scene) => render(scene, &options, &watch).map_err(cannot_render),
+        Input::Figures(scene) => picture_of_figures(scene, &options, &watch).map_err(cannot_render),
         Input::Region(region) => region.render(&options, &watch).map_err(cannot_render),
     };
     let how = graphics::How { adapter: arguments.adapter.as_deref(), voxels: arguments.voxels.count };
     let made = match (backend, &input) {
         (Backend::Cpu, _) => on_cpu(&input).map(|rendered| (rendered, None)),
         (Backend::Gpu, Input::Scene(scene)) => graphics::render(scene, &options, how, &watch),
-        (Backend::Gpu, Input::Region(_)) => {
-            Err(Failure::Usage("regions of the plane are rendered on the CPU: leave --backend out".into()))
+        (Backend::Gpu, Input::Region(_) | Input::Figures(_)) => {
+            Err(Failure::Usage("what lies in a plane is rendered on the CPU: leave --backend out".into()))
         }
         (Backend::Auto, Input::Scene(scene)) => graphics::render_if_able(scene, &options, how, &watch)
             .unwrap_or_else(|reason| on_cpu(&input).map(|rendered| (rendered, Some(format!("CPU: {reason}"))))),
-        (Backend::Auto, Input::Region(_)) => on_cpu(&input).map(|rendered| (rendered, None)),
+        (Backend::Auto, Input::Region(_) | Input::Figures(_)) => on_cpu(&input).map(|rendered| (rendered, None)),
     };
     watch.bar.finish_and_clear();
     let (rendered, by) = made?;
 
     let picture = match &input {
         Input::Scene(scene) => scene.picture.clone(),
-        Input::Region(_) => Picture::default(),
+        Input::Figures(_) | Input::Region(_) => Picture::default(),
     };
     let compression = if arguments.small { Compression::Thorough } else { Compression::Quick };
     let bytes = format.encode(&rendered, &picture, compression).map_err(|error| Failure::Input(error.to_string()))?;
@@ -139,7 +142,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let (Some(file), Some(path)) = (stats_file, &arguments.stats) {
         let method = match &input {
             Input::Scene(scene) => scene.tracer.method,
-            Input::Region(_) => Method::Auto,
+            Input::Figures(_) | Input::Region(_) => Method::Auto,
         };
         let text = statistics(&rendered, method, by.as_deref());
         file.write(text.as_bytes()).map_err(|error| cannot_write(path, &error))?;

@@ -1,0 +1,148 @@
+//! The reference of shapes as a page of Markdown, from their descriptors.
+
+use super::help::values;
+use freikugel::field::{Analysis, Arity, Dimension, Field, Kind, Metric, Shape, analyse, shapes};
+use freikugel::scene::{self, Scene};
+use std::fmt::Write;
+
+/// A complete scene file with the example of a shape.
+pub(super) fn example_scene(shape: &Shape) -> String {
+    let example: Vec<&str> = shape.about.example.lines().map(str::trim).collect();
+    format!(
+        "{{\n  \"version\": 1,\n  \"picture\": {{ \"width\": 320, \"height\": 240, \"samples\": 16 }},\n  \
+         \"materials\": {{ \"clay\": {{ \"color\": \"#c9996b\" }}, \"gold\": {{ \"color\": \"#d9a441\" }} }},\n  \
+         \"objects\": [\n    {{ \"name\": \"{}\", \"material\": \"gold\", \"shape\":\n      {} }}\n  ]\n}}\n",
+        shape.about.name,
+        example.join("\n        ")
+    )
+}
+
+/// The groups of shapes, with what belongs to them.
+const GROUPS: [(&str, &str, fn(&Shape) -> bool); 6] = [
+    (
+        "Plane figures",
+        "They lie in the plane of x and y. `extrude` and `revolve` make bodies of them; a scene of nothing but figures is drawn as a \
+         slice.",
+        |shape| is_primitive(shape, Dimension::Plane),
+    ),
+    ("Bodies", "Round the origin, unless their parameters say otherwise.", |shape| {
+        is_primitive(shape, Dimension::Space) || matches!(shape.kind, Kind::Formula)
+    }),
+    ("Combinations", "Several shapes become one, from the first to the last.", |shape| shape.arity() == Arity::Many),
+    ("From the plane to space", "A figure becomes a body.", |shape| {
+        matches!(&shape.kind, Kind::Extrude(_))
+            || matches!(&shape.kind, Kind::Map(table) if table.takes == Dimension::Plane)
+    }),
+    ("Places and maps of space", "They move, turn, bend, fold or repeat what they are given.", |shape| {
+        match &shape.kind {
+            Kind::Map(table) => table.takes == Dimension::Space,
+            Kind::Place(_) | Kind::Copies(_) | Kind::Warp | Kind::Twist => true,
+            _ => false,
+        }
+    }),
+    ("Changes of the surface", "They change distances, or what a shape is made of.", |shape| {
+        matches!(shape.kind, Kind::Modify(_) | Kind::Paint | Kind::Displace)
+    }),
+];
+
+fn is_primitive(shape: &Shape, dimension: Dimension) -> bool {
+    matches!(&shape.kind, Kind::Primitive(table) if table.dimension == dimension)
+}
+
+/// The page.
+pub(super) fn markdown() -> String {
+    let mut text = String::from(
+        "# Shapes\n\nEvery shape, with its parameters, what its values are, and a picture of its example. \
+         `freikugel help shapes NAME` shows the same, `freikugel help shapes NAME --scene` prints the example as a scene file. \
+         This page is written by `cargo xtask reference` from the descriptors under `crates/field/src/shapes`; \
+         [coverage](coverage.md) lists what other systems have and how it is called here.\n\n\
+         *exact*: the distance to the surface. *bound*: never more than that distance. Both are safe to march along. \
+         *implicit*: right where it is 0 and in its sign. Angles are in degrees.\n",
+    );
+    for (title, about, belongs) in GROUPS {
+        let members = || shapes::ALL.iter().copied().filter(|shape| belongs(shape));
+        let _ = write!(text, "\n## {title}\n\n{about}\n\n");
+        let names: Vec<String> = members().map(|shape| format!("[{0}](#{0})", shape.about.name)).collect();
+        let _ = writeln!(text, "{}", names.join(" · "));
+        for shape in members() {
+            section(shape, &mut text);
+        }
+    }
+    text
+}
+
+fn section(shape: &'static Shape, text: &mut String) {
+    let about = &shape.about;
+    let name = about.name;
+    let _ = write!(text, "\n### {name}\n\n![{name}](../../gallery/reference/{name}.png)\n\n{}\n", about.summary);
+    if let Some(promise) = promise(shape) {
+        let _ = write!(text, "\nValues: {promise}.\n");
+    }
+    let mut rows: Vec<[String; 3]> = about
+        .params
+        .iter()
+        .map(|param| {
+            let (takes, default) = values(param);
+            [param.name.to_owned(), format!("{takes}; {default}"), param.about.to_owned()]
+        })
+        .collect();
+    rows.extend(shape.formulas().iter().map(|param| {
+        let default = param.default.map_or("required".to_owned(), |text| format!("{text} if left out"));
+        [param.name.to_owned(), format!("a formula; {default}"), param.about.to_owned()]
+    }));
+    match shape.arity() {
+        Arity::None => {}
+        Arity::One => rows.push(["shape".into(), "a shape".into(), "The shape that is changed.".into()]),
+        Arity::Many => rows.push([
+            "shapes".into(),
+            "a list of shapes".into(),
+            "One or more shapes, in order; where nothing else is needed, they may stand alone as a list.".into(),
+        ]),
+    }
+    if !rows.is_empty() {
+        text.push_str("\n| parameter | takes | |\n|---|---|---|\n");
+        for [name, takes, about] in rows {
+            let _ = writeln!(text, "| `{name}` | {} | {} |", takes.replace('|', "\\|"), about.replace('|', "\\|"));
+        }
+    }
+    if !about.elsewhere.is_empty() {
+        let _ = write!(text, "\nKnown elsewhere as: {}.\n", about.elsewhere.join(", "));
+    }
+    let lines: Vec<&str> = about.example.lines().map(str::trim).collect();
+    let _ = write!(text, "\n```json\n{}\n```\n", lines.join("\n  "));
+}
+
+/// What the values of a shape's example are, of the shape itself if the example does more with it.
+fn promise(shape: &'static Shape) -> Option<String> {
+    let scene: Scene = scene::read(&example_scene(shape)).scene?;
+    let field = find(&scene.objects[0].shape, shape)?;
+    let Analysis { contract, .. } = analyse(&field).0?;
+    let name = |metric| match metric {
+        Metric::Exact => "exact",
+        Metric::Bound => "bound",
+        Metric::Implicit => "implicit",
+    };
+    let mut promise = match (contract.signed, contract.outside == contract.inside) {
+        (false, _) => format!("{}, without inside", name(contract.outside)),
+        (true, true) => name(contract.outside).to_owned(),
+        (true, false) => format!("{} outside, {} inside", name(contract.outside), name(contract.inside)),
+    };
+    match contract.lipschitz {
+        Some(1.0) => {}
+        Some(slope) => {
+            let _ = write!(promise, ", slope at most {slope:.4}");
+        }
+        None => promise.push_str(", marched by its slope in each cell of space"),
+    }
+    let is_changed = shape.arity() != Arity::None;
+    Some(if is_changed { format!("{promise} (of this example)") } else { promise })
+}
+
+/// The first node of a kind, from the top.
+fn find(field: &Field, shape: &'static Shape) -> Option<Field> {
+    let node = field.node();
+    if std::ptr::eq(node.shape, shape) {
+        return Some(field.clone());
+    }
+    node.children.iter().find_map(|child| find(child, shape))
+}
