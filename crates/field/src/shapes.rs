@@ -3,9 +3,11 @@
 //! Written by `cargo xtask shapes` from the files in the folder of the same name. To add a shape, write its file and run
 //! that command.
 
+pub mod align;
 pub mod any_order;
 pub mod arc;
 pub mod arch;
+pub mod bend;
 mod blend;
 pub mod box_frame;
 pub mod capped_torus;
@@ -21,6 +23,7 @@ pub mod convex_polyhedron;
 pub mod convex_polyhedron_bound;
 pub mod cross;
 pub mod cuboid;
+pub mod curl;
 pub mod cut_sphere;
 pub mod cylinder;
 pub mod difference;
@@ -30,10 +33,12 @@ pub mod egg;
 pub mod ellipsoid;
 pub mod ellipsoid_bound;
 pub mod elongate;
+pub mod engrave;
 mod escape;
 pub mod exponential;
 pub mod extrude;
 pub mod formula;
+pub mod groove;
 pub mod heart;
 pub mod horseshoe;
 pub mod icosahedron;
@@ -42,13 +47,16 @@ pub mod lens;
 pub mod link;
 pub mod mandelbulb;
 pub mod moon;
+pub mod morph;
 pub mod octahedron;
 pub mod offset;
 pub mod outline;
 pub mod paint;
 pub mod parallelogram;
+pub mod pipe;
 pub mod plane;
 pub mod polygon;
+pub mod polyline;
 mod polynomial;
 pub mod pyramid;
 pub mod quaternion_julia;
@@ -70,6 +78,7 @@ pub mod round;
 pub mod round_cone;
 pub mod scale;
 pub mod sector;
+pub mod shear;
 pub mod sheet;
 pub mod shell;
 pub mod slab;
@@ -82,12 +91,16 @@ pub mod staircase;
 pub mod stairs;
 pub mod star;
 pub mod stretch;
+pub mod swirl;
 pub mod symmetry;
+pub mod taper;
 pub mod tetrahedron;
+pub mod tongue;
 pub mod torus;
 pub mod translate;
 pub mod trapezoid;
 pub mod truncated_octahedron;
+pub mod tube;
 pub mod twist;
 pub mod uneven_capsule;
 pub mod union;
@@ -95,9 +108,11 @@ pub mod warp;
 pub mod wedge;
 pub mod xor;
 
+pub use align::*;
 pub use any_order::*;
 pub use arc::*;
 pub use arch::*;
+pub use bend::*;
 pub use box_frame::*;
 pub use capped_torus::*;
 pub use capsule::*;
@@ -112,6 +127,7 @@ pub use convex_polyhedron::*;
 pub use convex_polyhedron_bound::*;
 pub use cross::*;
 pub use cuboid::*;
+pub use curl::*;
 pub use cut_sphere::*;
 pub use cylinder::*;
 pub use difference::*;
@@ -121,9 +137,11 @@ pub use egg::*;
 pub use ellipsoid::*;
 pub use ellipsoid_bound::*;
 pub use elongate::*;
+pub use engrave::*;
 pub use exponential::*;
 pub use extrude::*;
 pub use formula::*;
+pub use groove::*;
 pub use heart::*;
 pub use horseshoe::*;
 pub use icosahedron::*;
@@ -132,13 +150,16 @@ pub use lens::*;
 pub use link::*;
 pub use mandelbulb::*;
 pub use moon::*;
+pub use morph::*;
 pub use octahedron::*;
 pub use offset::*;
 pub use outline::*;
 pub use paint::*;
 pub use parallelogram::*;
+pub use pipe::*;
 pub use plane::*;
 pub use polygon::*;
+pub use polyline::*;
 pub use pyramid::*;
 pub use quaternion_julia::*;
 pub use rectangle::*;
@@ -159,6 +180,7 @@ pub use round::*;
 pub use round_cone::*;
 pub use scale::*;
 pub use sector::*;
+pub use shear::*;
 pub use sheet::*;
 pub use shell::*;
 pub use slab::*;
@@ -171,12 +193,16 @@ pub use staircase::*;
 pub use stairs::*;
 pub use star::*;
 pub use stretch::*;
+pub use swirl::*;
 pub use symmetry::*;
+pub use taper::*;
 pub use tetrahedron::*;
+pub use tongue::*;
 pub use torus::*;
 pub use translate::*;
 pub use trapezoid::*;
 pub use truncated_octahedron::*;
+pub use tube::*;
 pub use twist::*;
 pub use uneven_capsule::*;
 pub use union::*;
@@ -188,11 +214,13 @@ use crate::shape::Shape;
 
 /// The descriptors of all shapes, by name.
 pub static ALL: &[&Shape] = &[
+    &ALIGN,
     &POLYNOMIAL_UNION,
     &POLYNOMIAL_INTERSECTION,
     &POLYNOMIAL_DIFFERENCE,
     &ARC,
     &ARCH,
+    &BEND,
     &BOX_FRAME,
     &CAPPED_TORUS,
     &CAPSULE,
@@ -209,6 +237,7 @@ pub static ALL: &[&Shape] = &[
     &CONVEX_POLYHEDRON_BOUND,
     &CROSS,
     &BOX,
+    &CURL,
     &CUT_SPHERE,
     &CYLINDER,
     &DIFFERENCE,
@@ -218,11 +247,13 @@ pub static ALL: &[&Shape] = &[
     &ELLIPSOID,
     &ELLIPSOID_BOUND,
     &ELONGATE,
+    &ENGRAVE,
     &EXPONENTIAL_UNION,
     &EXPONENTIAL_INTERSECTION,
     &EXPONENTIAL_DIFFERENCE,
     &EXTRUDE,
     &FORMULA,
+    &GROOVE,
     &HEART,
     &HORSESHOE,
     &ICOSAHEDRON,
@@ -231,13 +262,16 @@ pub static ALL: &[&Shape] = &[
     &LINK,
     &MANDELBULB,
     &MOON,
+    &MORPH,
     &OCTAHEDRON,
     &OFFSET,
     &OUTLINE,
     &PAINT,
     &PARALLELOGRAM,
+    &PIPE,
     &PLANE,
     &POLYGON,
+    &POLYLINE,
     &PYRAMID,
     &QUATERNION_JULIA,
     &RECTANGLE,
@@ -262,6 +296,7 @@ pub static ALL: &[&Shape] = &[
     &ROUND_CONE,
     &SCALE,
     &SECTOR,
+    &SHEAR,
     &SHEET,
     &SHELL,
     &SLAB,
@@ -276,12 +311,16 @@ pub static ALL: &[&Shape] = &[
     &STAIRS_DIFFERENCE,
     &STAR,
     &STRETCH,
+    &SWIRL,
     &SYMMETRY,
+    &TAPER,
     &TETRAHEDRON,
+    &TONGUE,
     &TORUS,
     &TRANSLATE,
     &TRAPEZOID,
     &TRUNCATED_OCTAHEDRON,
+    &TUBE,
     &TWIST,
     &UNEVEN_CAPSULE,
     &UNION,

@@ -206,8 +206,9 @@ fn intervals_contain_and_are_narrow() {
             let is_narrow = cell.width() <= 4.0 * (highest - lowest) + slack;
             // A blend of faces that look the same way, or of those that face each other, is nearly level all over, which ranges of
             // its operands can't know. Such places are rare, and enclosures there span no more than the slope does.
-            let may_be_level = common::is_blend(name) && cell.width() <= CELL * 3f64.sqrt() * (1.0 + 1e-9);
-            blends += usize::from(common::is_blend(name));
+            let is_blend = common::is_blend(name) || common::is_carved(name);
+            let may_be_level = is_blend && cell.width() <= CELL * 3f64.sqrt() * (1.0 + 1e-9);
+            blends += usize::from(is_blend);
             level += usize::from(may_be_level && !is_narrow);
             assert!(
                 is_orbit || may_be_level || is_narrow,

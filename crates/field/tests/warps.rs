@@ -202,6 +202,87 @@ fn the_extent_of_a_warp_holds_it_and_a_cut_bounds_it() {
     assert!((cut.value(DVec3::X * 0.7) - 0.2).abs() < 1e-12);
 }
 
+/// Maps by formulas of their own, with the same looked up in another way.
+fn maps() -> Vec<(&'static str, Field, fn(DVec3) -> DVec3)> {
+    let child = || cuboid([1.6, 0.5, 0.9]).at([0.1, 0.05, -0.1]) | sphere(0.35).at([-0.6, 0.1, 0.3]);
+    vec![
+        ("bend", child().bend(50.0), |p| {
+            // The angle at the middle of the bend, and the distance from it.
+            let radius = 1.0 / 50f64.to_radians();
+            let from_middle = p - DVec3::Y * radius;
+            DVec3::new(p.x.atan2(radius - p.y) * radius, radius - from_middle.truncate().length(), p.z)
+        }),
+        ("bend down", child().bend(-70.0), |p| {
+            let radius = 1.0 / 70f64.to_radians();
+            let from_middle = p + DVec3::Y * radius;
+            DVec3::new(p.x.atan2(radius + p.y) * radius, from_middle.truncate().length() - radius, p.z)
+        }),
+        ("taper", child().taper(-0.4, 0.5, 0.3), |p| {
+            let scale = if p.z < -0.4 {
+                1.0
+            } else if p.z > 0.5 {
+                0.3
+            } else {
+                1.0 - 0.7 * (p.z + 0.4) / 0.9
+            };
+            DVec3::new(p.x / scale, p.y / scale, p.z)
+        }),
+        ("swirl", child().swirl(130.0, 0.7), |p| {
+            let angle = 130f64.to_radians() * (-p.truncate().length() / 0.7).exp();
+            DQuat::from_rotation_z(-angle) * p
+        }),
+        ("curl", child().curl(40.0), |p| DQuat::from_rotation_z(40f64.to_radians() * p.x) * p),
+    ]
+}
+
+#[test]
+fn maps_look_their_child_up_where_they_should() {
+    let child = || cuboid([1.6, 0.5, 0.9]).at([0.1, 0.05, -0.1]) | sphere(0.35).at([-0.6, 0.1, 0.3]);
+    let alone = program(&child());
+    let mut random = Random::new(31);
+    for (name, field, map) in maps() {
+        let program = program(&field);
+        let Extent::Finite(aabb) = extent(&field) else { panic!("{name} of a finite shape is finite") };
+        let size = aabb.size();
+        assert!(size.max_element() < 3.5, "{name}: {aabb:?} is far too large");
+        for p in (0..4000).map(|_| random.point(1.8)) {
+            let expected = alone.value(map(p));
+            assert!((program.value(p) - expected).abs() < 1e-11, "{name} at {p}");
+            let is_in_box = p.cmpge(aabb.min).all() && p.cmple(aabb.max).all();
+            assert!(expected > 0.0 || is_in_box, "{name}: {p} outside of {aabb:?}");
+        }
+        let everywhere = analyse(&field).0.expect("sound").contract.lipschitz;
+        for _ in 0..40 {
+            let region = random.point(1.5).to_array().map(|c| Interval::new(c - 0.1, c + 0.1));
+            let bound = program.lipschitz_over(region);
+            for _ in 0..60 {
+                let mut at = || DVec3::from_array(region.map(|side| random.range(side.lo(), side.hi())));
+                let (p, q) = (at(), at());
+                let (one, other) = (program.value(p), program.value(q));
+                let rise = (one - other).abs() / p.distance(q);
+                assert!(bound.is_none_or(|bound| rise <= bound * (1.0 + 1e-9)), "{name}: {rise} above {bound:?}");
+                assert!(everywhere.is_none_or(|all| rise <= all * (1.0 + 1e-9)), "{name}: {rise} above {everywhere:?}");
+                let enclosure = program.interval(region);
+                assert!(enclosure.contains(one), "{name}: {one} not in {enclosure:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn maps_refuse_what_they_would_tear_apart() {
+    let message = |field: Field| analyse(&field).1.first().map_or(String::new(), |fault| fault.message.clone());
+    assert!(message(cuboid([7.0, 0.2, 0.2]).bend(60.0)).contains("ends of the bent shape meet"));
+    assert!(message(cuboid([1.0, 2.0, 0.2]).bend(60.0)).contains("reaches the middle"));
+    assert!(message(cuboid([1.0, 2.0, 0.2]).at([0.0, -1.0, 0.0]).bend(60.0)).is_empty());
+    assert!(message(plane([0.0, 0.0, 1.0]).bend(60.0)).contains("no end along x"));
+    assert!(message(sphere(1.0).bend(0.0)).contains("must not be 0"));
+    assert!(message(sphere(1.0).taper(1.0, 0.0, 0.5)).contains("must be above `from`"));
+    assert!(message(plane([0.0, 0.0, 1.0]).taper(0.0, 1.0, 0.5)).contains("no bound across z"));
+    assert!(message(plane([1.0, 0.0, 0.0]).curl(10.0)).contains("no bound across z"));
+    assert!(message(plane([1.0, 0.0, 0.0]).swirl(10.0, 1.0)).is_empty(), "a swirl has a slope everywhere");
+}
+
 #[test]
 fn materials_stay_with_the_shape() {
     let (red, blue) = (MaterialId(1), MaterialId(2));

@@ -102,7 +102,10 @@ fn at_most_one_ray_in_ten_thousand_grazes() {
                 let outcome = trial.outcome.as_ref().expect("every constant is known");
                 *grazing += outcome.count(Verdict::Grazing);
                 let agreeing = outcome.count(Verdict::Agrees) + outcome.count(Verdict::Grazing);
-                assert_eq!(agreeing, outcome.verdicts.len(), "{} by {:?}", notation(&field), trial.method);
+                let found = [Verdict::Missed, Verdict::False, Verdict::Unresolved, Verdict::Unjudged]
+                    .map(|verdict| (verdict, outcome.count(verdict)));
+                let all = outcome.verdicts.len();
+                assert_eq!(agreeing, all, "{} by {:?}: {found:?} of {crop:?}", notation(&field), trial.method);
             }
         }
     }

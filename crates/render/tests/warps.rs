@@ -30,6 +30,10 @@ fn fields() -> Vec<(&'static str, Field)> {
         ("strong spot", sphere(1.0).warp(["x + exp(-30*((x - 0.6)^2 + y^2)) / 2", "y", "z"])),
         ("waves", torus(0.9, 0.3).warp(["x + 0.2*sin(4y)", "y + 0.2*sin(4x)", "z"])),
         ("bumps", sphere(1.0).displace("0.08*sin(14x)*sin(14y)*sin(14z)")),
+        ("bend", cuboid([3.6, 0.4, 0.8]).rotate([1.0, 0.0, 0.0], 20.0).bend(80.0)),
+        ("taper", cuboid([1.6, 1.2, 2.0]).taper(-0.7, 0.8, 0.3).rotate([1.0, 0.3, 0.0], 70.0)),
+        ("swirl", cuboid([2.4, 0.5, 0.6]).swirl(150.0, 0.8)),
+        ("curl", cuboid([2.4, 0.8, 0.8]).curl(40.0)),
         ("mixed", sphere(0.6).at([0.8, 0.0, 0.0]) | cuboid([0.8, 1.6, 0.8]).twist(90.0).at([-0.6, 0.0, 0.0])),
         ("bare formula", formula("x^4 + y^4 + z^4 - (x^2 + y^2 + z^2) - 0.1").into()),
     ]

@@ -371,7 +371,12 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
         let inverse = Self::safe_inverse(T::length2(self.value, x.value));
         // Divided twice, because the square of the length leaves the range of single precision early.
         let (sin, cos) = (self.value * inverse, x.value * inverse);
-        self.chain2(x, self.value.atan2(x.value), [cos * inverse, -sin * inverse])
+        let mut angle = self.chain2(x, self.value.atan2(x.value), [cos * inverse, -sin * inverse]);
+        // Where x is negative, the angle jumps with the sign of y.
+        let zero = x.value.lift(0.0);
+        let jump = T::select(x.value.lt(zero), self.value.less(zero), zero).step_slope();
+        angle.gradient.iter_mut().for_each(|slope| *slope = *slope + jump);
+        angle
     }
 
     #[inline(always)]

@@ -75,6 +75,8 @@ pub enum ParamKind {
     Region,
     /// A list of points of the plane: x, y.
     Points2,
+    /// A list of points: x, y, z.
+    Points3,
     /// One or several closed lines of the plane: lists of corners x, y and the angle by which the edge to the next corner turns to the
     /// left, 0 for a straight one; stored with a fourth number, 1 for the last corner of a line and otherwise 0.
     Contours,
@@ -101,6 +103,7 @@ impl ParamKind {
             | Self::Lengths
             | Self::Factors
             | Self::Angles
+            | Self::Points3
             | Self::Counts(..) => 3,
             Self::Quaternion | Self::Quadruple | Self::Region | Self::HalfSpaces | Self::Contours => 4,
         }
@@ -108,7 +111,7 @@ impl ParamKind {
 
     /// Whether the value is a list of entries.
     pub const fn is_list(self) -> bool {
-        matches!(self, Self::HalfSpaces | Self::Points2 | Self::Contours)
+        matches!(self, Self::HalfSpaces | Self::Points2 | Self::Points3 | Self::Contours)
     }
 
     /// Why `value` is not one of this kind, or `None` if it is. The numbers are as stored: angles in radians.

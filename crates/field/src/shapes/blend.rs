@@ -110,6 +110,18 @@ fn constants<F: Family>(args: &[f64], signs: [f64; 2]) -> Vec<f64> {
     all
 }
 
+/// What an operator needs that reads distances on both sides of both surfaces.
+///
+/// # Errors
+/// If one of them has no inside.
+pub(crate) fn solids(a: Contract, b: Contract) -> Result<(), String> {
+    if a.signed && b.signed {
+        Ok(())
+    } else {
+        Err("a sheet has no inside to combine; give it a thickness first, for instance with `offset`".into())
+    }
+}
+
 /// What all operands but a cutter must have.
 fn check<F: Family>(args: &[f64], is_solid: bool) -> Result<(), String> {
     if !is_solid {

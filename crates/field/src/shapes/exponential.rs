@@ -68,7 +68,8 @@ const SETTLED: f64 = 38.0;
 /// The weight of the farther operand beside 1 for the nearer one.
 #[inline(always)]
 fn weight<S: Scalar>(gap: S, c: S) -> S {
-    let exponent = (gap * c).min(gap.lift(SETTLED));
+    // Not below 0, as roundings of enclosures may be: without a blend c is so large that they would come to infinite weights.
+    let exponent = (gap * c).min(gap.lift(SETTLED)).max(gap.lift(0.0));
     S::select(exponent.lt(gap.lift(END)), (-exponent).exp(), gap.lift(0.0))
 }
 

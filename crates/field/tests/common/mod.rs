@@ -73,6 +73,7 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
                 push(radius * angle.sin());
             }
         }
+        ParamKind::Points3 => (0..3 * (2 + random.below(4))).for_each(|_| push(random.range(-1.0, 1.0))),
         ParamKind::Contours => {
             // A round-edged star, in which smaller ones may be holes, or overlap.
             for reach in if random.below(2) == 0 { &[1.2][..] } else { &[1.2, 0.5][..] } {
@@ -410,9 +411,11 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             }
             contains(children.next()?, q)?
         }
-        ("symmetry", [axes]) => {
+        ("symmetry", [axes, k]) => {
             let folded = *axes as usize + 1;
-            let fold = |axis: usize| if folded >> axis & 1 == 1 { p[axis].abs() } else { p[axis] };
+            // A parabola that touches the absolute value at k.
+            let smooth = |x: f64| if x.abs() < *k { (x * x / k + k) / 2.0 } else { x.abs() };
+            let fold = |axis: usize| if folded >> axis & 1 == 1 { smooth(p[axis]) } else { p[axis] };
             contains(children.next()?, DVec3::new(fold(0), fold(1), fold(2)))?
         }
         ("elongate", [x, y, z]) => {
@@ -489,11 +492,45 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         }
         ("scale", [a]) => contains(children.next()?, p / *a)?,
         ("stretch", [x, y, z]) => contains(children.next()?, p / DVec3::new(*x, *y, *z))?,
+        ("shear", [plane, by]) => {
+            let [moved, with] = [[0, 1], [0, 2], [1, 0], [1, 2], [2, 0], [2, 1]][*plane as usize];
+            let mut q = p;
+            q[moved] -= by * p[with];
+            contains(children.next()?, q)?
+        }
+        ("align", args) => {
+            // Two half turns about the new direction, and the middle between both, make the turn.
+            let (from, to) = (DVec3::from_slice(args).normalize(), DVec3::from_slice(&args[3..]).normalize());
+            let half_turn = |axis: DVec3, p: DVec3| 2.0 * axis * axis.dot(p) - p;
+            let q = half_turn(from, half_turn((from + to).normalize(), p));
+            contains(children.next()?, q)?
+        }
+        ("tube", [radius, closed, points @ ..]) => {
+            let points: Vec<DVec3> = points.chunks_exact(3).map(DVec3::from_slice).collect();
+            near_line(&points, *closed == 1.0, p, *radius)
+        }
+        ("polyline", [width, closed, points @ ..]) => {
+            let points: Vec<DVec3> = points.chunks_exact(2).map(|c| DVec3::new(c[0], c[1], 0.0)).collect();
+            near_line(&points, *closed == 1.0, DVec3::new(p.x, p.y, 0.0), width / 2.0)
+        }
         ("offset" | "shell" | "smooth_union" | "smooth_intersection" | "smooth_difference", _) => {
             return None;
         }
-        (name, _) if is_blend(name) => return None,
+        (name, _) if is_blend(name) || is_carved(name) => return None,
         (name, args) => panic!("say in the membership test what lies inside {name} with {} numbers", args.len()),
+    })
+}
+
+/// Whether a point is nearer than `radius` to some point of a line.
+fn near_line(points: &[DVec3], is_closed: bool, p: DVec3, radius: f64) -> bool {
+    let count = points.len() - usize::from(!is_closed);
+    (0..count).any(|index| {
+        let (a, b) = (points[index], points[(index + 1) % points.len()]);
+        // The squared distance along a piece is a parabola: at its ends, or at its vertex between them.
+        let [start, middle, end] = [0.0, 0.5, 1.0].map(|share| p.distance_squared(a.lerp(b, share)));
+        let bend = 2.0 * (start - 2.0 * middle + end);
+        let vertex = ((start - end) / (2.0 * bend) + 0.5).clamp(0.0, 1.0);
+        p.distance(a.lerp(b, vertex)) < radius
     })
 }
 
@@ -543,6 +580,11 @@ pub(crate) fn is_blend(name: &str) -> bool {
     let families = ["round", "chamfer", "exponential", "polynomial", "stairs", "root"];
     let operators = ["union", "intersection", "difference"];
     name.split_once('_').is_some_and(|(family, operator)| families.contains(&family) && operators.contains(&operator))
+}
+
+/// Whether a shape is made where the surfaces of others meet, or mixes their distances.
+pub(crate) fn is_carved(name: &str) -> bool {
+    ["pipe", "engrave", "groove", "tongue", "morph"].contains(&name)
 }
 
 fn all(answers: impl Iterator<Item = Option<bool>>) -> Option<Vec<bool>> {

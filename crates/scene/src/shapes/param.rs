@@ -54,6 +54,7 @@ impl Notation<Vec<f64>> for ParamKind {
             (Self::Region, _) => region(reader, value)?,
             (Self::HalfSpaces, _) => entries(reader, value, "half-spaces, [x, y, z, d]", ["x", "y", "z", "d"])?,
             (Self::Contours, _) => contours(reader, value)?,
+            (Self::Points3, _) => entries(reader, value, "points, [x, y, z]", ["x", "y", "z"])?,
             (Self::Points2, _) => entries(reader, value, "points, [x, y]", ["x", "y"])?,
         };
         let fault = if numbers.is_empty() { Some(NO_ENTRIES.into()) } else { ParamKind::fault(*self, &numbers) };
@@ -78,6 +79,7 @@ impl Notation<Vec<f64>> for ParamKind {
             },
             Self::HalfSpaces => value.chunks(4).map(list).collect(),
             Self::Points2 => value.chunks(2).map(list).collect(),
+            Self::Points3 => value.chunks(3).map(list).collect(),
             Self::Contours => {
                 let corner = |c: &[f64]| match c[2] {
                     0.0 => list(&c[..2]),
@@ -146,13 +148,10 @@ impl Notation<Vec<f64>> for ParamKind {
                 ] })
             }
             Self::HalfSpaces => json!({ "type": "array", "items": numbers_schema(4), "minItems": 1 }),
+            Self::Points3 => json!({ "type": "array", "items": numbers_schema(3), "minItems": 1 }),
             Self::Points2 => json!({ "type": "array", "items": numbers_schema(2), "minItems": 1 }),
             Self::Contours => {
-                let turn = json!({ "type": "number", "exclusiveMinimum": -360, "exclusiveMaximum": 360 });
-                let number = || json!({ "type": "number" });
-                let corner = json!({
-                    "type": "array", "prefixItems": [number(), number(), turn], "items": false, "minItems": 2, "maxItems": 3,
-                });
+                let corner = json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 3 });
                 let line = || json!({ "type": "array", "items": corner, "minItems": 2 });
                 json!({ "anyOf": [line(), { "type": "array", "items": line(), "minItems": 1 }] })
             }
@@ -348,6 +347,7 @@ mod tests {
             (ParamKind::Size, json!([1, 2, 3])),
             (ParamKind::HalfSpaces, json!([[1, 0, 0, 0.5]])),
             (ParamKind::Points2, json!([[1, 0], [0.5, 2], [0, 1]])),
+            (ParamKind::Points3, json!([[1, 0, 0.5], [0.5, 2, 3]])),
             (ParamKind::Contours, json!([[1, 0], [0.5, 2, 90], [0, 1]])),
             (ParamKind::Contours, json!([[[1, 0, 180], [0.5, 2]], [[0, 1], [1, 1], [2, 2, -30.5]]])),
         ] {
