@@ -24,6 +24,7 @@
 //! of files, cameras, colours, threads or graphics processors.
 
 pub mod analysis;
+mod arcs;
 mod bank;
 mod bvh;
 pub mod cells;
@@ -39,6 +40,7 @@ pub mod field;
 mod focus;
 pub mod formula;
 mod formula_kernel;
+mod glyphs;
 pub mod kernel;
 mod lower;
 pub mod nearest;
@@ -48,6 +50,7 @@ pub mod outline;
 pub mod program;
 mod prune;
 pub mod ray;
+mod remember;
 pub mod scalar;
 mod second;
 pub mod shape;

@@ -91,10 +91,12 @@ pub mod staircase;
 pub mod stairs;
 pub mod star;
 pub mod stretch;
+pub mod svg_path;
 pub mod swirl;
 pub mod symmetry;
 pub mod taper;
 pub mod tetrahedron;
+pub mod text;
 pub mod tongue;
 pub mod torus;
 pub mod translate;
@@ -193,10 +195,12 @@ pub use staircase::*;
 pub use stairs::*;
 pub use star::*;
 pub use stretch::*;
+pub use svg_path::*;
 pub use swirl::*;
 pub use symmetry::*;
 pub use taper::*;
 pub use tetrahedron::*;
+pub use text::*;
 pub use tongue::*;
 pub use torus::*;
 pub use translate::*;
@@ -311,10 +315,12 @@ pub static ALL: &[&Shape] = &[
     &STAIRS_DIFFERENCE,
     &STAR,
     &STRETCH,
+    &SVG_PATH,
     &SWIRL,
     &SYMMETRY,
     &TAPER,
     &TETRAHEDRON,
+    &TEXT,
     &TONGUE,
     &TORUS,
     &TRANSLATE,

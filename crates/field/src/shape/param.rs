@@ -80,6 +80,8 @@ pub enum ParamKind {
     /// One or several closed lines of the plane: lists of corners x, y and the angle by which the edge to the next corner turns to the
     /// left, 0 for a straight one; stored with a fourth number, 1 for the last corner of a line and otherwise 0.
     Contours,
+    /// A text: a list of the numbers of its characters.
+    Text,
     /// A list of half-spaces, each with an outward normal and the distance of its plane from the origin: x, y, z, d.
     HalfSpaces,
 }
@@ -95,6 +97,7 @@ impl ParamKind {
             | Self::Count(..)
             | Self::Angle
             | Self::Choice(_)
+            | Self::Text
             | Self::Flag => 1,
             Self::Size2 | Self::Points2 => 2,
             Self::Vector
@@ -111,7 +114,7 @@ impl ParamKind {
 
     /// Whether the value is a list of entries.
     pub const fn is_list(self) -> bool {
-        matches!(self, Self::HalfSpaces | Self::Points2 | Self::Points3 | Self::Contours)
+        matches!(self, Self::HalfSpaces | Self::Points2 | Self::Points3 | Self::Contours | Self::Text)
     }
 
     /// Why `value` is not one of this kind, or `None` if it is. The numbers are as stored: angles in radians.

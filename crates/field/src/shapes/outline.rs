@@ -54,8 +54,24 @@ pub(crate) fn edges(args: &[f64]) -> Vec<Edge> {
 }
 
 impl Edge {
+    /// The length of its chord.
+    pub(crate) fn length(self) -> f64 {
+        self.from.distance(self.to)
+    }
+
+    /// The point half way along it.
+    pub(crate) fn middle(self) -> DVec2 {
+        let chord = self.to - self.from;
+        (self.from + self.to) / 2.0 - chord.perp() / 2.0 * libm::tan(self.turn / 4.0)
+    }
+
+    /// The direction to its left, half way along it.
+    pub(crate) fn normal(self) -> DVec2 {
+        (self.to - self.from).perp().normalize_or(DVec2::X)
+    }
+
     /// Of an arc its centre and radius.
-    fn circle(self) -> Option<(DVec2, f64)> {
+    pub(crate) fn circle(self) -> Option<(DVec2, f64)> {
         let chord = self.to - self.from;
         if self.turn == 0.0 || chord == DVec2::ZERO {
             return None;

@@ -94,6 +94,7 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
         ParamKind::Angles => (0..3).for_each(|_| push(random.range(-4.0, 4.0))),
         ParamKind::Quaternion => (0..4).for_each(|_| push(random.range(-1.0, 1.0))),
         ParamKind::Quadruple => (0..4).for_each(|_| push(random.range(-0.6, 0.6))),
+        ParamKind::Text => unreachable!("a text depends on what it is for"),
         ParamKind::Region => unreachable!("formulas have tests of their own"),
         ParamKind::HalfSpaces => {
             let tilt = DMat3::from_quat(DQuat::from_axis_angle(random.direction(), random.range(0.0, 3.0)));
@@ -108,6 +109,14 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
         }
     }
 }
+
+/// Path data, and texts.
+const PATHS: [&str; 3] = [
+    "M-1 0.5 C-1 -0.7 -0.2 -0.7 0 0 C0.2 -0.7 1 -0.7 1 0.5 Q0 1 -1 0.5 Z M-0.3 0.3 h0.6 v0.3 h-0.6 z",
+    "M0 -0.8 A0.8 0.8 0 1 1 -0.5 0.6 L0.2 0.1 Z",
+    "M-1 -1 H1 V1 H-1 Z M-0.5 -0.5 V0.5 H0.5 V-0.5 Z",
+];
+const TEXTS: [&str; 3] = ["&a", "oi\n8", "Ä"];
 
 /// A random sound call of `shape` that is a body if there are such, with children of depth below `depth`.
 pub(crate) fn call(shape: &'static Shape, depth: u32, random: &mut Random) -> Field {
@@ -126,6 +135,11 @@ fn call_in(dimension: Dimension, shape: &'static Shape, depth: u32, random: &mut
             if param.name == "order" && param.kind == ParamKind::Positive {
                 // Of a polynomial; any number above 1.
                 args.push(random.range(1.2, 4.0).into());
+                continue;
+            }
+            if param.kind == ParamKind::Text {
+                let known = if param.name == "d" { &PATHS[..] } else { &TEXTS[..] };
+                args.extend(known[random.below(known.len())].chars().map(|c| Value::from(u32::from(c))));
                 continue;
             }
             arguments(param.kind, random, &mut args);
@@ -516,6 +530,8 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         ("offset" | "shell" | "smooth_union" | "smooth_intersection" | "smooth_difference", _) => {
             return None;
         }
+        // Tested by themselves: what is inside, their own curves say.
+        ("text" | "svg_path", _) => return None,
         (name, _) if is_blend(name) || is_carved(name) => return None,
         (name, args) => panic!("say in the membership test what lies inside {name} with {} numbers", args.len()),
     })

@@ -118,6 +118,7 @@ pub(super) fn values(param: &Param) -> (String, String) {
         ParamKind::Quaternion => "[x, y, z, w]".into(),
         ParamKind::Quadruple => "[real, i, j, k]".into(),
         ParamKind::Region => "{ \"sphere\": radius } or { \"box\": size }".into(),
+        ParamKind::Text => "a text".into(),
         ParamKind::Points2 => "a list of [x, y]".into(),
         ParamKind::Points3 => "a list of [x, y, z]".into(),
         ParamKind::Contours => "a list of [x, y] or [x, y, angle], or a list of such lists".into(),

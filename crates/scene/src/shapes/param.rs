@@ -54,6 +54,11 @@ impl Notation<Vec<f64>> for ParamKind {
             (Self::Region, _) => region(reader, value)?,
             (Self::HalfSpaces, _) => entries(reader, value, "half-spaces, [x, y, z, d]", ["x", "y", "z", "d"])?,
             (Self::Contours, _) => contours(reader, value)?,
+            (Self::Text, Written::StringLit(text)) => text.value.chars().map(|c| f64::from(u32::from(c))).collect(),
+            (Self::Text, _) => {
+                reader.mistyped(value, "a text", None);
+                return None;
+            }
             (Self::Points3, _) => entries(reader, value, "points, [x, y, z]", ["x", "y", "z"])?,
             (Self::Points2, _) => entries(reader, value, "points, [x, y]", ["x", "y"])?,
         };
@@ -80,6 +85,7 @@ impl Notation<Vec<f64>> for ParamKind {
             Self::HalfSpaces => value.chunks(4).map(list).collect(),
             Self::Points2 => value.chunks(2).map(list).collect(),
             Self::Points3 => value.chunks(3).map(list).collect(),
+            Self::Text => json!(value.iter().filter_map(|&code| char::from_u32(code as u32)).collect::<String>()),
             Self::Contours => {
                 let corner = |c: &[f64]| match c[2] {
                     0.0 => list(&c[..2]),
@@ -148,6 +154,7 @@ impl Notation<Vec<f64>> for ParamKind {
                 ] })
             }
             Self::HalfSpaces => json!({ "type": "array", "items": numbers_schema(4), "minItems": 1 }),
+            Self::Text => json!({ "type": "string", "minLength": 1 }),
             Self::Points3 => json!({ "type": "array", "items": numbers_schema(3), "minItems": 1 }),
             Self::Points2 => json!({ "type": "array", "items": numbers_schema(2), "minItems": 1 }),
             Self::Contours => {
@@ -348,6 +355,7 @@ mod tests {
             (ParamKind::HalfSpaces, json!([[1, 0, 0, 0.5]])),
             (ParamKind::Points2, json!([[1, 0], [0.5, 2], [0, 1]])),
             (ParamKind::Points3, json!([[1, 0, 0.5], [0.5, 2, 3]])),
+            (ParamKind::Text, json!("Grüße\n")),
             (ParamKind::Contours, json!([[1, 0], [0.5, 2, 90], [0, 1]])),
             (ParamKind::Contours, json!([[[1, 0, 180], [0.5, 2]], [[0, 1], [1, 1], [2, 2, -30.5]]])),
         ] {

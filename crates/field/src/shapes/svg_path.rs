@@ -1,0 +1,142 @@
+//! Figure of the path data of an SVG picture. Curves become arcs within a tolerance; the distance from these is exact.
+
+use super::outline::{Edge, Outline, edges};
+use crate::arcs::Lines;
+use crate::remember::remembered;
+use crate::shape_prelude::*;
+use glam::DVec2;
+use svgtypes::{SimplePathSegment, SimplifyingPathParser};
+
+/// See [`svg_path`].
+#[derive(Clone, Copy, Debug)]
+pub struct SvgPath;
+
+/// The descriptor of [`svg_path`].
+pub static SVG_PATH: Shape = Shape::special::<SvgPath>();
+
+/// The figure of path data, such as `"M0 0 L4 0 Q4 3 0 3 Z"`: what the attribute `d` of a path in an SVG picture holds. In pictures y
+/// leads downwards; here it leads upwards. `with("rule", ...)` chooses how lines within others are filled.
+#[track_caller]
+pub fn svg_path(data: &str) -> Form<SvgPath> {
+    let characters = data.chars().map(|c| Value::from(u32::from(c)));
+    Form::new(&SVG_PATH, [0.into()].into_iter().chain(characters))
+}
+
+/// Arcs are within this share of the size of the path from its curves.
+const TOLERANCE: f64 = 1e-4;
+
+/// A step to either side of an edge, as a share of its length: less than to the next edge, but for the finest of figures.
+const BESIDE: f64 = 1e-4;
+
+/// The text of a list of characters.
+pub(crate) fn text_of(codes: &[f64]) -> String {
+    codes.iter().map(|&code| char::from_u32(code as u32).unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
+}
+
+impl Special for SvgPath {
+    type General = Outline;
+
+    const ABOUT: About = About {
+        name: "svg_path",
+        summary: "A plane figure: the path of an SVG picture, with lines, arcs and Bézier curves.",
+        params: &[
+            Param::optional(
+                "rule",
+                ParamKind::Choice(&["nonzero", "evenodd"]),
+                &[0.0],
+                "What is inside where lines lie within others: `nonzero` counts in which direction they run, `evenodd` how many they are.",
+            ),
+            Param::required("d", ParamKind::Text, "The path data: what the attribute `d` of the path holds."),
+        ],
+        elsewhere: &["path", "svg", "outline import", "bezier2", "parabola_segment", "quad_circle"],
+        example: r#"{ "extrude": { "height": 0.4, "shape": { "svg_path": { "d":
+            "M-0.9 0.5 C-0.9 -0.7 -0.2 -0.7 0 0 C0.2 -0.7 0.9 -0.7 0.9 0.5 Q0 0.9 -0.9 0.5 Z M-0.3 0.3 L0.3 0.3 L0 0.05 Z" } } } }"#,
+    };
+
+    fn check(args: &[f64]) -> Result<(), String> {
+        let lines = lines(args)?;
+        if lines.is_empty() { Err("`d` of `svg_path` surrounds nothing".into()) } else { Ok(()) }
+    }
+
+    fn general(args: &[f64]) -> Vec<f64> {
+        remembered("svg_path", args, || {
+            let lines = lines(args).unwrap_or_default();
+            if args[0] == 0.0 { nonzero(&lines) } else { lines }
+        })
+    }
+}
+
+/// The closed lines of a path, with arguments as those of an outline.
+fn lines(args: &[f64]) -> Result<Vec<f64>, String> {
+    let data = text_of(&args[1..]);
+    let segments: Vec<SimplePathSegment> = SimplifyingPathParser::from(data.as_str())
+        .collect::<Result<_, _>>()
+        .map_err(|error| format!("`d` of `svg_path` can't be read: {error}"))?;
+    let point = |x: f64, y: f64| DVec2::new(x, -y);
+    let ends = segments.iter().filter_map(|segment| match *segment {
+        SimplePathSegment::MoveTo { x, y }
+        | SimplePathSegment::LineTo { x, y }
+        | SimplePathSegment::CurveTo { x, y, .. }
+        | SimplePathSegment::Quadratic { x, y, .. } => Some(point(x, y)),
+        SimplePathSegment::ClosePath => None,
+    });
+    let (low, high) = ends.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+    let size = (high - low).max_element().max(f64::MIN_POSITIVE);
+    let mut lines = Lines::new(size * TOLERANCE);
+    for segment in segments {
+        match segment {
+            SimplePathSegment::MoveTo { x, y } => lines.move_to(point(x, y)),
+            SimplePathSegment::LineTo { x, y } => lines.line_to(point(x, y)),
+            SimplePathSegment::Quadratic { x1, y1, x, y } => lines.quadratic_to(point(x1, y1), point(x, y)),
+            SimplePathSegment::CurveTo { x1, y1, x2, y2, x, y } => {
+                lines.cubic_to(point(x1, y1), point(x2, y2), point(x, y));
+            }
+            SimplePathSegment::ClosePath => lines.close(),
+        }
+    }
+    Ok(lines.finish())
+}
+
+/// Those of some closed lines on one side of which points are wound around, and on the other side not: what the rule `nonzero` makes
+/// the border of a figure, as long as lines don't cross.
+fn nonzero(lines: &[f64]) -> Vec<f64> {
+    let edges = edges(lines);
+    let mut kept = Vec::new();
+    let mut first = 0;
+    for (index, corner) in lines.chunks_exact(4).enumerate() {
+        if corner[3] == 0.0 {
+            continue;
+        }
+        // Beside the middle of the longest edge.
+        let own = &edges[first..=index];
+        let longest = own.iter().copied().max_by(|a, b| a.length().total_cmp(&b.length()));
+        if let Some(edge) = longest {
+            let side = |sign: f64| winding(&edges, edge.middle() + edge.normal() * (sign * BESIDE * edge.length()));
+            if (side(1.0) == 0) != (side(-1.0) == 0) {
+                kept.extend_from_slice(&lines[4 * first..4 * (index + 1)]);
+            }
+        }
+        first = index + 1;
+    }
+    kept
+}
+
+/// How often edges lead around a point, counter-clockwise.
+fn winding(edges: &[Edge], p: DVec2) -> i32 {
+    let mut count = 0;
+    for edge in edges {
+        let is_left = (edge.to - edge.from).perp_dot(p - edge.from) > 0.0;
+        match (edge.from.y <= p.y, edge.to.y <= p.y) {
+            (true, false) if is_left => count += 1,
+            (false, true) if !is_left => count -= 1,
+            _ => {}
+        }
+        if let Some((centre, radius)) = edge.circle() {
+            let is_beyond_chord = is_left != (edge.turn > 0.0);
+            if is_beyond_chord && p.distance(centre) < radius {
+                count += if edge.turn > 0.0 { 1 } else { -1 };
+            }
+        }
+    }
+    count
+}
