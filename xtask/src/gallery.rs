@@ -5,7 +5,7 @@ use crate::run::{Result, output, root, run};
 use std::path::{Path, PathBuf};
 
 /// Contact sheets: the file below `gallery/`, the command and its scene below `scenes/`, and further arguments.
-const SHEETS: [(&str, &str, &str, &[&str]); 6] = [
+const SHEETS: [(&str, &str, &str, &[&str]); 9] = [
     ("tracers/max-distance.png", "sweep", "tracers/limits.json", &["--vary", "tracer.max_distance=100,9,6.3"]),
     ("tracers/precision.png", "sweep", "tracers/limits.json", &["--vary", "tracer.precision=1e-5,0.1,1"]),
     ("tracers/steps.png", "sweep", "tracers/limits.json", &["--vary", "tracer.max_steps=100,10,5"]),
@@ -14,6 +14,24 @@ const SHEETS: [(&str, &str, &str, &[&str]); 6] = [
         "sweep",
         "sources/sphere-on-plane.json",
         &["--vary", "lights[0].sun.shadow.hardness=8,16,32,64,128,256", "--width", "300", "--height", "200"],
+    ),
+    (
+        "slices/distance.png",
+        "slice",
+        "first-light.json",
+        &["--axis", "y", "--width", "400", "--height", "260", "--quiet"],
+    ),
+    (
+        "slices/slope.png",
+        "slice",
+        "first-light.json",
+        &["--axis", "y", "--show", "slope", "--width", "400", "--height", "260", "--quiet"],
+    ),
+    (
+        "slices/steps.png",
+        "slice",
+        "shapes/ellipsoid_bound.json",
+        &["--show", "steps", "--width", "400", "--height", "260", "--quiet"],
     ),
     ("tracers/compare-distances.png", "compare", "tracers/thin.json", &["--width", "210", "--height", "140"]),
     ("tracers/compare-formula.png", "compare", "bench/s3-periodic.json", &["--width", "210", "--height", "140"]),
