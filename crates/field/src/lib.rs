@@ -25,11 +25,13 @@
 
 pub mod analysis;
 mod arcs;
+mod arcs3;
 mod bank;
 mod bvh;
 pub mod cells;
 mod compile;
 pub mod contract;
+pub mod curve;
 pub mod diagnostic;
 pub mod elementary;
 pub mod enclose;

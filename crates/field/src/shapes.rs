@@ -7,7 +7,9 @@ pub mod align;
 pub mod any_order;
 pub mod arc;
 pub mod arch;
+pub mod b_spline;
 pub mod bend;
+pub mod bezier;
 mod blend;
 pub mod box_frame;
 pub mod capped_torus;
@@ -87,6 +89,7 @@ pub mod smooth_intersection;
 pub mod smooth_union;
 pub mod solid_angle;
 pub mod sphere;
+pub mod spline;
 pub mod staircase;
 pub mod stairs;
 pub mod star;
@@ -114,7 +117,9 @@ pub use align::*;
 pub use any_order::*;
 pub use arc::*;
 pub use arch::*;
+pub use b_spline::*;
 pub use bend::*;
+pub use bezier::*;
 pub use box_frame::*;
 pub use capped_torus::*;
 pub use capsule::*;
@@ -191,6 +196,7 @@ pub use smooth_intersection::*;
 pub use smooth_union::*;
 pub use solid_angle::*;
 pub use sphere::*;
+pub use spline::*;
 pub use staircase::*;
 pub use stairs::*;
 pub use star::*;
@@ -224,7 +230,9 @@ pub static ALL: &[&Shape] = &[
     &POLYNOMIAL_DIFFERENCE,
     &ARC,
     &ARCH,
+    &B_SPLINE,
     &BEND,
+    &BEZIER,
     &BOX_FRAME,
     &CAPPED_TORUS,
     &CAPSULE,
@@ -309,6 +317,7 @@ pub static ALL: &[&Shape] = &[
     &SMOOTH_UNION,
     &SOLID_ANGLE,
     &SPHERE,
+    &SPLINE,
     &STAIRCASE,
     &STAIRS_UNION,
     &STAIRS_INTERSECTION,

@@ -3,6 +3,7 @@
 mod common;
 
 use common::Random;
+use freikugel_field::curve::{BSpline, Bezier};
 use freikugel_field::shapes::*;
 use freikugel_field::{
     Dimension, Extent, Field, Interval, Metric, Program, Severity, Structure, analyse, analyse_body, extent,
@@ -423,5 +424,78 @@ fn paths_are_the_figures_that_their_data_says() {
     {
         let (analysis, diagnostics) = analyse(&path(data));
         assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{data}: {diagnostics:?}");
+    }
+}
+
+#[test]
+fn tubes_are_as_far_as_the_nearest_points_of_their_curves() {
+    const RADIUS: f64 = 0.2;
+    /// So much the arcs may be away from their curve, as a share of the radius; and the steps along the curve.
+    const TOLERANCE: f64 = 2.5e-3 * RADIUS;
+    const STEPS: u32 = 4000;
+    let mut random = Random::new(19);
+    for round in 0..12 {
+        let points: Vec<DVec3> = (0..4 + round % 3).map(|_| random.point(1.0)).collect();
+        let rows = || points.iter().map(DVec3::to_array);
+        let spline = |degree: usize, closed: bool| {
+            if closed { BSpline::closed(degree, &points) } else { BSpline::clamped(degree, points.clone()) }
+                .expect("enough points")
+        };
+        let bezier = Bezier::new(points.clone());
+        let along = |spline: BSpline<DVec3>| {
+            let (low, high) = spline.domain();
+            (0..=STEPS).map(|step| spline.at(low + (high - low) * f64::from(step) / f64::from(STEPS))).collect()
+        };
+        let cases: [(&str, Field, Vec<DVec3>); 4] = [
+            (
+                "bezier",
+                bezier_of(RADIUS, rows()),
+                (0..=STEPS).map(|step| bezier.at(f64::from(step) / f64::from(STEPS))).collect(),
+            ),
+            ("quadratic", b_spline(RADIUS, 2, rows()).into(), along(spline(2, false))),
+            ("cubic", b_spline(RADIUS, 3, rows()).into(), along(spline(3, false))),
+            ("closed", b_spline(RADIUS, 3, rows()).with("closed", &[1.into()]).into(), along(spline(3, true))),
+        ];
+        for (name, field, curve) in cases {
+            let (program, contract) = (program(&field), analyse(&field).0.expect("sound").contract);
+            assert_eq!((contract.outside, contract.inside), (Metric::Exact, Metric::Bound));
+            let Extent::Finite(aabb) = extent(&field) else { panic!("a tube is finite") };
+            for p in &curve {
+                assert!(p.cmpge(aabb.min + RADIUS - TOLERANCE).all() && p.cmple(aabb.max - RADIUS + TOLERANCE).all());
+            }
+            for p in (0..60).map(|_| random.point(1.5)) {
+                let nearest = curve.iter().map(|q| q.distance(p)).fold(f64::INFINITY, f64::min) - RADIUS;
+                let value = program.value(p);
+                assert!((value - nearest).abs() < 2.0 * TOLERANCE, "{name} {round}: {value}, not {nearest}");
+            }
+        }
+        // Through its points, smoothly: all of them lie in the middle of the tube.
+        let through = program(&spline_of(RADIUS, rows()));
+        for p in &points {
+            assert!((through.value(*p) + RADIUS).abs() < TOLERANCE, "{round}");
+        }
+    }
+}
+
+fn bezier_of(radius: f64, points: impl Iterator<Item = [f64; 3]>) -> Field {
+    bezier(radius, points).into()
+}
+
+fn spline_of(radius: f64, points: impl Iterator<Item = [f64; 3]>) -> Field {
+    freikugel_field::shapes::spline(radius, points).into()
+}
+
+#[test]
+fn curves_that_are_none_are_refused() {
+    for (field, message) in [
+        (bezier_of(0.1, [[0.0; 3]].into_iter()), "between two points"),
+        (bezier_of(0.1, [[0.5; 3]; 4].into_iter()), "between two points"),
+        (bezier_of(0.1, (0..40).map(|i| [f64::from(i), 0.0, 0.0])), "at most 33 points"),
+        (b_spline(0.1, 3, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]).into(), "at least 4 points"),
+        (tube(0.1, [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]).into(), "point 1 of `tube` and the next one are the same"),
+        (spline_of(0.1, [[0.0; 3]].into_iter()), "`spline` has fewer than two points"),
+    ] {
+        let (analysis, diagnostics) = analyse(&field);
+        assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{message}: {diagnostics:?}");
     }
 }

@@ -99,7 +99,7 @@ fn lines_are_written_with_their_values() {
             assert!((radius - expected).abs() < 2e-3, "{value}: {radius}");
             count += 1;
         }
-        assert!(count > 40, "{value}: {count} points");
+        assert!(count > 15, "{value}: {count} points");
     }
 }
 
@@ -119,7 +119,7 @@ fn scenes_of_figures_are_drawn_as_slices_and_refused_by_what_traces_rays() {
         &["sweep", "s.json", "--vary", "objects[0].shape.circle.radius=1,2"],
     ] {
         let (code, text) = run(folder.path(), args);
-        assert!(code == 1 && text.contains("plane figures"), "{args:?}: {text}");
+        assert!(code == 1 && text.contains("plane figure"), "{args:?}: {text}");
     }
     for (args, message) in [
         (&["slice", "s.json", "--axis", "x"][..], "lies in the plane of x and y"),

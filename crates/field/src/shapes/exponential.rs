@@ -70,7 +70,9 @@ const SETTLED: f64 = 38.0;
 fn weight<S: Scalar>(gap: S, c: S) -> S {
     // Not below 0, as roundings of enclosures may be: without a blend c is so large that they would come to infinite weights.
     let exponent = (gap * c).min(gap.lift(SETTLED)).max(gap.lift(0.0));
-    S::select(exponent.lt(gap.lift(END)), (-exponent).exp(), gap.lift(0.0))
+    // Between 0 and 1, which models do not know where the exponent may be anything: a polynomial goes far beyond there.
+    let weight = (-exponent).exp().min(gap.lift(1.0)).max(gap.lift(0.0));
+    S::select(exponent.lt(gap.lift(END)), weight, gap.lift(0.0))
 }
 
 impl Family for Exponential {

@@ -1,6 +1,6 @@
 //! Line along points of the plane, with a width, and round joints and ends: a tube in the plane. Exact outside.
 
-use super::tube::Tube;
+use super::tube::{Tube, Wire};
 use crate::shape_prelude::*;
 
 /// See [`polyline`].
@@ -45,19 +45,19 @@ impl Primitive for Polyline {
     }
 
     fn prepare(args: &[f64]) -> Vec<f64> {
-        Tube::prepare(&tube(args))
+        Tube::general(&tube(args))
     }
 
     fn contract(args: &[f64]) -> Contract {
-        Tube::contract(&tube(args))
+        Wire::contract(args)
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
-        in_plane(direction, |_| Tube::support(&tube(args), direction, level))
+        in_plane(direction, |_| Wire::support(&Tube::general(&tube(args)), direction, level))
     }
 
     #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
-        Tube::distance(vec3(p.x, p.y, p.z.lift(0.0)), c)
+        Wire::distance(vec3(p.x, p.y, p.z.lift(0.0)), c)
     }
 }

@@ -1,14 +1,66 @@
-//! Tube along straight pieces from point to point, with round joints and ends. Exact outside.
+//! Round tubes along chains of straight edges and arcs. Exact outside.
 
-use super::capsule::segment;
+use crate::arcs3::{Arc3, ROW, reach};
 use crate::shape_prelude::*;
+
+/// All that a ball fills while it moves along straight edges and arcs: what tubes of all kinds are cases of. Its arguments are its
+/// constants: the radius, then those of each arc.
+#[derive(Clone, Copy, Debug)]
+pub struct Wire;
+
+impl Primitive for Wire {
+    const ABOUT: About =
+        About { name: "wire", summary: "A round tube along arcs.", params: &[], elsewhere: &[], example: "" };
+
+    fn contract(_args: &[f64]) -> Contract {
+        Contract { inside: Metric::Bound, ..Contract::EXACT }
+    }
+
+    fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
+        let farthest = args[1..].chunks_exact(ROW).map(|row| reach(row, direction)).fold(f64::NEG_INFINITY, f64::max);
+        farthest + (args[0] + level) * direction.length()
+    }
+
+    #[inline(always)]
+    fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
+        let arcs = c.part(1, c.count() - 1);
+        let zero = p.x.lift(0.0);
+        let [nearest] = S::fold_rows(
+            &arcs,
+            ROW,
+            [p.x.lift(f64::from(f32::MAX))],
+            #[inline(always)]
+            |[nearest], arc| {
+                let [mx, my, mz, ux, uy, uz, nx, ny, nz, half, sin, cos, radius] = arc.get();
+                let (q, u, n) = (p - vec3(mx, my, mz), vec3(ux, uy, uz), vec3(nx, ny, nz));
+                // In the arc's plane as in an outline, and out of it.
+                let (along, across) = (q.dot(u).abs(), q.dot(n));
+                let out = q.dot(vec3(uy * nz - uz * ny, uz * nx - ux * nz, ux * ny - uy * nx));
+                let is_between = zero.lt(sin * across + cos * (half - along));
+                let to_centre = radius * cos;
+                let excess = (along - half) * (along + half) + across * (across + to_centre * 2.0);
+                let is_arc = zero.lt(radius);
+                let gap = S::select(is_arc, excess / (S::length2(along, across + to_centre) + radius), across);
+                let beside = S::select(is_between, zero, along - half);
+                let across = S::select(is_between, gap, across);
+                [nearest.min(S::length3(beside, across, out))]
+            },
+        );
+        nearest - c.at(0)
+    }
+}
+
+/// The arguments of the tube along some arcs.
+pub(crate) fn along(radius: f64, arcs: impl IntoIterator<Item = Arc3>) -> Vec<f64> {
+    [radius].into_iter().chain(arcs.into_iter().flat_map(|arc| arc.constants())).collect()
+}
 
 /// See [`tube`].
 #[derive(Clone, Copy, Debug)]
 pub struct Tube;
 
 /// The descriptor of [`tube`].
-pub static TUBE: Shape = Shape::primitive::<Tube>();
+pub static TUBE: Shape = Shape::special::<Tube>();
 
 /// All that a ball of this radius fills while its middle moves from point to point. `with("closed", ...)` leads from the last one
 /// back to the first.
@@ -21,10 +73,9 @@ pub fn tube<V: Into<Value>>(radius: impl Into<Value>, points: impl IntoIterator<
 /// How many arguments stand before the points.
 const BEFORE: usize = 2;
 
-/// How many constants a piece has.
-const PIECE: usize = 7;
+impl Special for Tube {
+    type General = Wire;
 
-impl Primitive for Tube {
     const ABOUT: About = About {
         name: "tube",
         summary: "A round tube along straight pieces from point to point.",
@@ -49,42 +100,11 @@ impl Primitive for Tube {
         }
     }
 
-    /// The pieces; then the radius, as a row of its own would be: nothing but rows is read in a loop.
-    fn prepare(args: &[f64]) -> Vec<f64> {
+    fn general(args: &[f64]) -> Vec<f64> {
         let points: Vec<DVec3> = args[BEFORE..].chunks_exact(3).map(DVec3::from_slice).collect();
-        // From the last point back to itself, if the tube is open.
+        // From the last point to itself, if the tube is open.
         let end = if args[1] == 0.0 { points[points.len() - 1] } else { points[0] };
-        let mut constants = vec![args[0]];
-        for (from, to) in points.iter().zip(points[1..].iter().chain([&end])) {
-            let along = *to - *from;
-            let inverse = 1.0 / along.length_squared().max(f64::MIN_POSITIVE);
-            constants.extend([from.x, from.y, from.z, along.x, along.y, along.z, inverse]);
-        }
-        constants
-    }
-
-    fn contract(_args: &[f64]) -> Contract {
-        Contract { inside: Metric::Bound, ..Contract::EXACT }
-    }
-
-    fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
-        let points = args[BEFORE..].chunks_exact(3).map(|point| direction.dot(DVec3::from_slice(point)));
-        points.fold(f64::NEG_INFINITY, f64::max) + (args[0] + level) * direction.length()
-    }
-
-    #[inline(always)]
-    fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
-        let pieces = c.part(1, c.count() - 1);
-        let [nearest] = S::fold_rows(
-            &pieces,
-            PIECE,
-            [p.x.lift(f64::from(f32::MAX))],
-            #[inline(always)]
-            |[nearest], piece| {
-                let [fx, fy, fz, ax, ay, az, inverse] = piece.get();
-                [nearest.min(segment(p, vec3(fx, fy, fz), vec3(ax, ay, az), inverse))]
-            },
-        );
-        nearest - c.at(0)
+        let pairs = points.iter().zip(points[1..].iter().chain([&end]));
+        along(args[0], pairs.map(|(from, to)| Arc3::straight(*from, *to)))
     }
 }
