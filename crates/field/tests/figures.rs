@@ -482,7 +482,7 @@ fn bezier_of(radius: f64, points: impl Iterator<Item = [f64; 3]>) -> Field {
 }
 
 fn spline_of(radius: f64, points: impl Iterator<Item = [f64; 3]>) -> Field {
-    freikugel_field::shapes::spline(radius, points).into()
+    spline(radius, points).into()
 }
 
 #[test]

@@ -54,8 +54,8 @@ impl Special for SvgPath {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let lines = lines(args)?;
-        if lines.is_empty() { Err("`d` of `svg_path` surrounds nothing".into()) } else { Ok(()) }
+        lines(args)?;
+        if Self::general(args).is_empty() { Err("`d` of `svg_path` surrounds nothing".into()) } else { Ok(()) }
     }
 
     fn general(args: &[f64]) -> Vec<f64> {

@@ -8,8 +8,14 @@ use std::fmt::Write;
 /// A complete scene file with the example of a shape.
 pub(super) fn example_scene(shape: &Shape) -> String {
     let example: Vec<&str> = shape.about.example.lines().map(str::trim).collect();
+    // Figures are extruded flat, and show their form from above.
+    let camera = if is_primitive(shape, Dimension::Plane) {
+        "\"camera\": { \"eye\": [0.6, -2.4, 3.4], \"target\": [0, 0, 0], \"fov\": 34 },\n  "
+    } else {
+        ""
+    };
     format!(
-        "{{\n  \"version\": 1,\n  \"picture\": {{ \"width\": 320, \"height\": 240, \"samples\": 16 }},\n  \
+        "{{\n  \"version\": 1,\n  \"picture\": {{ \"width\": 320, \"height\": 240, \"samples\": 16 }},\n  {camera}\
          \"materials\": {{ \"clay\": {{ \"color\": \"#c9996b\" }}, \"gold\": {{ \"color\": \"#d9a441\" }} }},\n  \
          \"objects\": [\n    {{ \"name\": \"{}\", \"material\": \"gold\", \"shape\":\n      {} }}\n  ]\n}}\n",
         shape.about.name,
