@@ -254,24 +254,34 @@ fn primitive_loop<P: Primitive, I: Simd, K: Packed<I>>(token: I, job: &mut Primi
     }
 }
 
-fn primitive_values<P: Primitive>(level: Level, job: &mut PrimitiveJob<'_>) {
-    dispatch!(level, token => primitive_loop::<P, _, Lanes<_>>(token, job));
+/// The loops of a primitive. As methods that the primitive has by itself, they are compiled where it is: side by side with those of
+/// others, and only when something about it changes.
+trait PrimitiveLoops: Primitive + Sized {
+    fn values(level: Level, job: &mut PrimitiveJob<'_>) {
+        dispatch!(level, token => primitive_loop::<Self, _, Lanes<_>>(token, job));
+    }
+
+    fn gradients(level: Level, job: &mut PrimitiveJob<'_>) {
+        dispatch!(level, token => primitive_loop::<Self, _, Dual<Lanes<_>>>(token, job));
+    }
+
+    fn seconds(level: Level, job: &mut PrimitiveJob<'_>) {
+        dispatch_up_to_avx2!(level, token => primitive_loop::<Self, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
+    }
+
+    fn models(level: Level, job: &mut PrimitiveJob<'_>) {
+        dispatch!(level, token => primitive_loop::<Self, _, Taylor<_>>(token, job));
+    }
 }
 
-fn primitive_gradients<P: Primitive>(level: Level, job: &mut PrimitiveJob<'_>) {
-    dispatch!(level, token => primitive_loop::<P, _, Dual<Lanes<_>>>(token, job));
-}
-
-fn primitive_seconds<P: Primitive>(level: Level, job: &mut PrimitiveJob<'_>) {
-    dispatch_up_to_avx2!(level, token => primitive_loop::<P, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
-}
+impl<F: Primitive> PrimitiveLoops for F {}
 
 /// A primitive over one batch of points of some number type.
 pub type PrimitiveKernel = fn(Level, &mut PrimitiveJob<'_>);
 
 /// The formula of `P` over Taylor models.
 pub fn primitive_models<P: Primitive>(level: Level, job: &mut PrimitiveJob<'_>) {
-    dispatch!(level, token => primitive_loop::<P, _, Taylor<_>>(token, job));
+    P::models(level, job);
 }
 
 /// A binary operator's work on one batch.
@@ -303,29 +313,34 @@ fn combine_loop<C: Combine, I: Simd, K: Packed<I>>(token: I, job: &mut CombineJo
     }
 }
 
-fn combine_values<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
-    dispatch!(level, token => combine_loop::<C, _, Lanes<_>>(token, job, false));
+/// The loops of a binary operator; see [`PrimitiveLoops`].
+trait CombineLoops: Combine + Sized {
+    fn values(level: Level, job: &mut CombineJob<'_>) {
+        dispatch!(level, token => combine_loop::<Self, _, Lanes<_>>(token, job, false));
+    }
+
+    fn gradients(level: Level, job: &mut CombineJob<'_>) {
+        dispatch!(level, token => combine_loop::<Self, _, Dual<Lanes<_>>>(token, job, false));
+    }
+
+    fn seconds(level: Level, job: &mut CombineJob<'_>) {
+        dispatch_up_to_avx2!(level, token => combine_loop::<Self, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job, false));
+    }
+
+    fn ranges(level: Level, job: &mut CombineJob<'_>) {
+        dispatch!(level, token => combine_loop::<Self, _, Intervals<_>>(token, job, false));
+    }
+
+    fn models(level: Level, job: &mut CombineJob<'_>) {
+        dispatch!(level, token => combine_loop::<Self, _, Taylor<_>>(token, job, false));
+    }
+
+    fn shares(level: Level, job: &mut CombineJob<'_>) {
+        dispatch!(level, token => combine_loop::<Self, _, Lanes<_>>(token, job, true));
+    }
 }
 
-fn combine_gradients<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
-    dispatch!(level, token => combine_loop::<C, _, Dual<Lanes<_>>>(token, job, false));
-}
-
-fn combine_seconds<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
-    dispatch_up_to_avx2!(level, token => combine_loop::<C, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job, false));
-}
-
-fn combine_ranges<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
-    dispatch!(level, token => combine_loop::<C, _, Intervals<_>>(token, job, false));
-}
-
-fn combine_models<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
-    dispatch!(level, token => combine_loop::<C, _, Taylor<_>>(token, job, false));
-}
-
-fn combine_shares<C: Combine>(level: Level, job: &mut CombineJob<'_>) {
-    dispatch!(level, token => combine_loop::<C, _, Lanes<_>>(token, job, true));
-}
+impl<F: Combine> CombineLoops for F {}
 
 /// The work of an operator with one operand on one batch.
 pub struct ModifyJob<'a> {
@@ -352,25 +367,30 @@ fn modify_loop<M: Modify, I: Simd, K: Packed<I>>(token: I, job: &mut ModifyJob<'
     }
 }
 
-fn modify_values<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
-    dispatch!(level, token => modify_loop::<M, _, Lanes<_>>(token, job));
+/// The loops of a unary operator; see [`PrimitiveLoops`].
+trait ModifyLoops: Modify + Sized {
+    fn values(level: Level, job: &mut ModifyJob<'_>) {
+        dispatch!(level, token => modify_loop::<Self, _, Lanes<_>>(token, job));
+    }
+
+    fn gradients(level: Level, job: &mut ModifyJob<'_>) {
+        dispatch!(level, token => modify_loop::<Self, _, Dual<Lanes<_>>>(token, job));
+    }
+
+    fn seconds(level: Level, job: &mut ModifyJob<'_>) {
+        dispatch_up_to_avx2!(level, token => modify_loop::<Self, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
+    }
+
+    fn ranges(level: Level, job: &mut ModifyJob<'_>) {
+        dispatch!(level, token => modify_loop::<Self, _, Intervals<_>>(token, job));
+    }
+
+    fn models(level: Level, job: &mut ModifyJob<'_>) {
+        dispatch!(level, token => modify_loop::<Self, _, Taylor<_>>(token, job));
+    }
 }
 
-fn modify_gradients<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
-    dispatch!(level, token => modify_loop::<M, _, Dual<Lanes<_>>>(token, job));
-}
-
-fn modify_seconds<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
-    dispatch_up_to_avx2!(level, token => modify_loop::<M, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
-}
-
-fn modify_ranges<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
-    dispatch!(level, token => modify_loop::<M, _, Intervals<_>>(token, job));
-}
-
-fn modify_models<M: Modify>(level: Level, job: &mut ModifyJob<'_>) {
-    dispatch!(level, token => modify_loop::<M, _, Taylor<_>>(token, job));
-}
+impl<F: Modify> ModifyLoops for F {}
 
 /// The affine map `p' = M p + t` as a formula; its first twelve constants are the columns of `M`, then `t`.
 #[inline(always)]
@@ -469,25 +489,30 @@ fn map_loop<M: Map, I: Simd, K: Packed<I>>(token: I, job: &mut MapJob<'_>) {
     }
 }
 
-fn map_values<M: Map>(level: Level, job: &mut MapJob<'_>) {
-    dispatch!(level, token => map_loop::<M, _, Lanes<_>>(token, job));
+/// The loops of a map; see [`PrimitiveLoops`].
+trait MapLoops: Map + Sized {
+    fn values(level: Level, job: &mut MapJob<'_>) {
+        dispatch!(level, token => map_loop::<Self, _, Lanes<_>>(token, job));
+    }
+
+    fn gradients(level: Level, job: &mut MapJob<'_>) {
+        dispatch!(level, token => map_loop::<Self, _, Dual<Lanes<_>>>(token, job));
+    }
+
+    fn seconds(level: Level, job: &mut MapJob<'_>) {
+        dispatch_up_to_avx2!(level, token => map_loop::<Self, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
+    }
+
+    fn ranges(level: Level, job: &mut MapJob<'_>) {
+        dispatch!(level, token => map_loop::<Self, _, Intervals<_>>(token, job));
+    }
+
+    fn models(level: Level, job: &mut MapJob<'_>) {
+        dispatch!(level, token => map_loop::<Self, _, Taylor<_>>(token, job));
+    }
 }
 
-fn map_gradients<M: Map>(level: Level, job: &mut MapJob<'_>) {
-    dispatch!(level, token => map_loop::<M, _, Dual<Lanes<_>>>(token, job));
-}
-
-fn map_seconds<M: Map>(level: Level, job: &mut MapJob<'_>) {
-    dispatch_up_to_avx2!(level, token => map_loop::<M, _, Dual<Dual<Lanes<_>, 1>, 1>>(token, job));
-}
-
-fn map_ranges<M: Map>(level: Level, job: &mut MapJob<'_>) {
-    dispatch!(level, token => map_loop::<M, _, Intervals<_>>(token, job));
-}
-
-fn map_models<M: Map>(level: Level, job: &mut MapJob<'_>) {
-    dispatch!(level, token => map_loop::<M, _, Taylor<_>>(token, job));
-}
+impl<F: Map> MapLoops for F {}
 
 /// A map's formula over one number type.
 pub type MapFn<S> = fn(Vec3<S>, &Constants<'_, S>) -> Vec3<S>;
@@ -516,11 +541,11 @@ impl MapKernels {
             M::map(p, c)
         }
         Self {
-            values: map_values::<M>,
-            gradients: map_gradients::<M>,
-            seconds: map_seconds::<M>,
-            ranges: map_ranges::<M>,
-            models: map_models::<M>,
+            values: <M as MapLoops>::values,
+            gradients: <M as MapLoops>::gradients,
+            seconds: <M as MapLoops>::seconds,
+            ranges: <M as MapLoops>::ranges,
+            models: <M as MapLoops>::models,
             real: M::map::<f64>,
             interval: M::map::<Interval>,
             slope: M::map::<Dual<Interval>>,
@@ -543,8 +568,8 @@ pub type Dual2 = Dual<Dual<f64>>;
 
 macro_rules! kernels {
     ($(#[$doc:meta])* $Kernels:ident, $Trait:ident :: $formula:ident, $Fn:ident, $Job:ident,
-     $values:ident, $gradients:ident, [$($arg:ident: $Arg:ty),*], expr [$($ExprArg:ty),*]
-     $(, $extra:ident = $extra_fn:ident)* $(; $single:ident: $Single:ty)*) => {
+     $Loops:ident, [$($arg:ident: $Arg:ty),*], expr [$($ExprArg:ty),*]
+     $(, $extra:ident)* $(; $single:ident: $Single:ty)*) => {
         $(#[$doc])*
         #[derive(Debug)]
         #[allow(missing_docs, reason = "one field for each number type")]
@@ -567,9 +592,9 @@ macro_rules! kernels {
                     F::$formula($($arg,)* c)
                 }
                 Self {
-                    values: $values::<F>,
-                    gradients: $gradients::<F>,
-                    $($extra: $extra_fn::<F>,)*
+                    values: <F as $Loops>::values,
+                    gradients: <F as $Loops>::gradients,
+                    $($extra: <F as $Loops>::$extra,)*
                     real: F::$formula::<f64>,
                     interval: F::$formula::<Interval>,
                     dual: F::$formula::<Dual<f64>>,
@@ -584,18 +609,16 @@ macro_rules! kernels {
 
 kernels!(
     /// A primitive's formula, for every number type.
-    PrimitiveKernels, Primitive::distance, PrimitiveFn, PrimitiveJob, primitive_values, primitive_gradients,
-    [p: Vec3<S>], expr [Vec3<Expr<'g>>], seconds = primitive_seconds
+    PrimitiveKernels, Primitive::distance, PrimitiveFn, PrimitiveJob, PrimitiveLoops,
+    [p: Vec3<S>], expr [Vec3<Expr<'g>>], seconds
 );
 kernels!(
     /// A binary operator's formula, for every number type.
-    CombineKernels, Combine::combine, CombineFn, CombineJob, combine_values, combine_gradients,
-    [a: S, b: S], expr [Expr<'g>, Expr<'g>], seconds = combine_seconds, ranges = combine_ranges,
-    models = combine_models, shares = combine_shares
+    CombineKernels, Combine::combine, CombineFn, CombineJob, CombineLoops,
+    [a: S, b: S], expr [Expr<'g>, Expr<'g>], seconds, ranges, models, shares
 );
 kernels!(
     /// A unary operator's formula, for every number type.
-    ModifyKernels, Modify::modify, ModifyFn, ModifyJob, modify_values, modify_gradients,
-    [value: S], expr [Expr<'g>], seconds = modify_seconds, ranges = modify_ranges,
-    models = modify_models; slope: Dual<Interval, 1>
+    ModifyKernels, Modify::modify, ModifyFn, ModifyJob, ModifyLoops,
+    [value: S], expr [Expr<'g>], seconds, ranges, models; slope: Dual<Interval, 1>
 );

@@ -148,7 +148,11 @@ impl Validator {
                 let required = schema.get("required").and_then(Json::as_array).cloned().unwrap_or_default();
                 let mut keys: Vec<&str> = required.iter().filter_map(Json::as_str).collect();
                 if keys.is_empty() && schema.get("minProperties").is_some() {
-                    keys.extend(properties.keys().next().map(String::as_str));
+                    // A shape that needs no others.
+                    let takes = |schema: &Json, key| self.resolve(schema)["properties"].get(key).is_some();
+                    let is_leaf = |schema: &&Json| !takes(schema, "shape") && !takes(schema, "shapes");
+                    let leaf = properties.iter().find(|(_, schema)| is_leaf(schema)).map(|(key, _)| key);
+                    keys.extend(leaf.or(properties.keys().next()).map(String::as_str));
                 }
                 keys.into_iter()
                     .map(|key| (key.to_string(), self.least(&properties[key])))

@@ -347,6 +347,23 @@ impl<I: Simd> Scalar for Taylor<I> {
     }
 
     #[inline(always)]
+    fn min(self, rhs: Self) -> Self {
+        let mask = self.lt(rhs);
+        let decided = Self::choose(mask.holds(), self, rhs);
+        if !Lanes::<I>::any(mask.is_open()) {
+            return decided;
+        }
+        // Of two that go side by side, a model of both keeps the shape; of one that goes far beyond the other, nothing but its range.
+        let (both, flat) = (self.hull(rhs), Self::constant_within(self.range().min(rhs.range())));
+        Self::choose(mask.is_open(), Self::choose(flat.r.lt(both.r), flat, both), decided)
+    }
+
+    #[inline(always)]
+    fn max(self, rhs: Self) -> Self {
+        -(-self).min(-rhs)
+    }
+
+    #[inline(always)]
     fn any(mask: Self::Mask) -> bool {
         <Intervals<I> as Scalar>::any(mask)
     }
@@ -505,7 +522,14 @@ impl<I: Simd> Scalar for Taylor<I> {
         let fifth = reach.square().square() * reach * (1.0 / 120.0);
         let most = (self.p[0] + reach).exp() * (1.0 + ELEMENTARY) + TINY;
         let f = [value, value, value * 0.5, value * (1.0 / 6.0), value * (1.0 / 24.0)];
-        Self::compose(rest, f, fifth * most, ELEMENTARY)
+        let series = Self::compose(rest, f, fifth * most, ELEMENTARY);
+        let is_long = reach.lift(1.0).lt(reach);
+        if !Lanes::<I>::any(is_long) {
+            return series;
+        }
+        // Far from the middle the series goes astray, and the range is what is left.
+        let flat = self.flat(self.range().exp());
+        Self::choose(is_long, Self::choose(flat.r.lt(series.r), flat, series), series)
     }
 
     #[inline(always)]
