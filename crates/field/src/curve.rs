@@ -128,8 +128,8 @@ impl<P: Point> BSpline<P> {
             let wanted = points.len() + degree + 1;
             return Err(format!("a spline of degree {degree} with {} points has {wanted} knots", points.len()));
         }
-        if knots.windows(2).any(|pair| !(pair[0] <= pair[1])) {
-            return Err("knots must not fall".into());
+        if !knots.is_sorted() || knots.iter().any(|knot| !knot.is_finite()) {
+            return Err("knots must be finite, and must not fall".into());
         }
         if knots.windows(degree + 2).any(|run| run[0] == run[degree + 1]) || knots[degree] == knots[points.len()] {
             return Err(format!("a spline of degree {degree} has no knot more than {} times", degree + 1));

@@ -202,8 +202,11 @@ fn the_extent_of_a_warp_holds_it_and_a_cut_bounds_it() {
     assert!((cut.value(DVec3::X * 0.7) - 0.2).abs() < 1e-12);
 }
 
+/// A name, a mapped field, and where its child is looked up.
+type Mapped = (&'static str, Field, fn(DVec3) -> DVec3);
+
 /// Maps by formulas of their own, with the same looked up in another way.
-fn maps() -> Vec<(&'static str, Field, fn(DVec3) -> DVec3)> {
+fn maps() -> Vec<Mapped> {
     let child = || cuboid([1.6, 0.5, 0.9]).at([0.1, 0.05, -0.1]) | sphere(0.35).at([-0.6, 0.1, 0.3]);
     vec![
         ("bend", child().bend(50.0), |p| {

@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn circles_are_closed_lines_at_their_radius() {
-        let values = grid(|x, y| x.hypot(y));
+        let values = grid(f32::hypot);
         for level in [0.3, 0.5, 0.9] {
             let lines = isolines(&values, [SIDE, SIDE], level);
             assert!(lines.len() == 1 && lines[0].is_closed, "{lines:?}");

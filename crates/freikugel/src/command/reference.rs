@@ -23,8 +23,11 @@ pub(super) fn example_scene(shape: &Shape) -> String {
     )
 }
 
-/// The groups of shapes, with what belongs to them.
-const GROUPS: [(&str, &str, fn(&Shape) -> bool); 6] = [
+/// The title of a group of shapes, a remark on them, and which they are.
+type Group = (&'static str, &'static str, fn(&Shape) -> bool);
+
+/// The groups of shapes.
+const GROUPS: [Group; 6] = [
     (
         "Plane figures",
         "They lie in the plane of x and y. `extrude` and `revolve` make bodies of them; a scene of nothing but figures is drawn as a \
