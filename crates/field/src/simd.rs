@@ -41,7 +41,7 @@ pub fn name(level: Level) -> &'static str {
 }
 
 /// Runs `$body` compiled for the instruction set of `$level`, with `$token` as the proof that it is there.
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", not(test)))]
 macro_rules! dispatch {
     ($level:expr, $token:ident => $body:expr) => {{
         use fearless_simd::Simd;
@@ -66,6 +66,20 @@ macro_rules! dispatch {
     }};
 }
 
+/// As it is outside of tests, but for the lowest instruction set alone. The tests inside of this crate run no kernels worth the name,
+/// and kernels for all instruction sets take minutes to build; those under `tests/` run what everyone runs.
+#[cfg(all(target_arch = "x86_64", test))]
+macro_rules! dispatch {
+    ($level:expr, $token:ident => $body:expr) => {{
+        use fearless_simd::Simd;
+        let $token = $level.as_sse2().expect("x86-64 has SSE2");
+        $token.vectorize(
+            #[inline(always)]
+            || $body,
+        )
+    }};
+}
+
 /// Runs `$body` compiled for the instruction set of `$level`, with `$token` as the proof that it is there.
 #[cfg(not(target_arch = "x86_64"))]
 macro_rules! dispatch {
@@ -77,7 +91,7 @@ macro_rules! dispatch {
 pub(crate) use dispatch;
 
 /// As [`dispatch!`], for kernels that run seldom and take long to build: AVX-512 machines run those for AVX2.
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", not(test)))]
 macro_rules! dispatch_up_to_avx2 {
     ($level:expr, $token:ident => $body:expr) => {{
         use fearless_simd::Simd;
@@ -94,6 +108,19 @@ macro_rules! dispatch_up_to_avx2 {
                 || $body,
             )
         }
+    }};
+}
+
+/// As [`dispatch!`].
+#[cfg(all(target_arch = "x86_64", test))]
+macro_rules! dispatch_up_to_avx2 {
+    ($level:expr, $token:ident => $body:expr) => {{
+        use fearless_simd::Simd;
+        let $token = $level.as_sse2().expect("x86-64 has SSE2");
+        $token.vectorize(
+            #[inline(always)]
+            || $body,
+        )
     }};
 }
 
