@@ -419,7 +419,7 @@ fn paths_are_the_figures_that_their_data_says() {
             assert!((found - expected).abs() < tolerance, "{name} at {p}: {found}, not {expected}");
         }
     }
-    for (data, message) in [("M0 0 L1 x", "can't be read"), ("M0 0 L1 1", "surrounds nothing"), ("", "needs `d`")] {
+    for (data, message) in [("M0 0 L1 x", "is no path data"), ("M0 0 L1 1", "surrounds nothing"), ("", "needs `d`")] {
         let (analysis, diagnostics) = analyse(&path(data));
         assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{data}: {diagnostics:?}");
     }

@@ -71,7 +71,7 @@ fn lines(args: &[f64]) -> Result<Vec<f64>, String> {
     let data = text_of(&args[1..]);
     let segments: Vec<SimplePathSegment> = SimplifyingPathParser::from(data.as_str())
         .collect::<Result<_, _>>()
-        .map_err(|error| format!("`d` of `svg_path` can't be read: {error}"))?;
+        .map_err(|error| format!("`d` of `svg_path` is no path data: {error}"))?;
     let point = |x: f64, y: f64| DVec2::new(x, -y);
     let ends = segments.iter().filter_map(|segment| match *segment {
         SimplePathSegment::MoveTo { x, y }
