@@ -280,7 +280,7 @@ fn maps_refuse_what_they_would_tear_apart() {
     assert!(message(cuboid([1.0, 2.0, 0.2]).at([0.0, -1.0, 0.0]).bend(60.0)).is_empty());
     assert!(message(plane([0.0, 0.0, 1.0]).bend(60.0)).contains("no end along x"));
     assert!(message(sphere(1.0).bend(0.0)).contains("must not be 0"));
-    assert!(message(sphere(1.0).taper(1.0, 0.0, 0.5)).contains("must be above `from`"));
+    assert!(message(sphere(1.0).taper(1.0, 0.0, 0.5)).contains("must be below `to`"));
     assert!(message(plane([0.0, 0.0, 1.0]).taper(0.0, 1.0, 0.5)).contains("no bound across z"));
     assert!(message(plane([1.0, 0.0, 0.0]).curl(10.0)).contains("no bound across z"));
     assert!(message(plane([1.0, 0.0, 0.0]).swirl(10.0, 1.0)).is_empty(), "a swirl has a slope everywhere");

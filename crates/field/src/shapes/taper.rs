@@ -44,7 +44,7 @@ impl Map for Tapering {
     fn contract(args: &[f64], child: Contract, reach: Supports<'_>) -> Result<Contract, String> {
         let &[from, to, scale] = args else { unreachable!("three numbers") };
         if to <= from {
-            return Err("`to` of `taper` must be above `from`".into());
+            return Err("`from` of `taper` must be below `to`".into());
         }
         if [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y].into_iter().any(|side| reach(side) == f64::INFINITY) {
             return Err("the shape to be tapered has no bound across z; intersect it with a cylinder or a box".into());
