@@ -4,6 +4,7 @@ mod browser;
 mod compilers;
 mod gallery;
 mod install;
+mod mutate;
 mod probe;
 mod reference;
 mod run;
@@ -23,6 +24,8 @@ usage: cargo xtask COMMAND
   schema          writes schema/scene.schema.json
   reference       writes docs/reference/shapes.md
   gallery         renders all scenes and contact sheets into gallery/
+  mutate          changes 50 operators in formulas, one at a time, and counts the changes that tests notice; or
+                  mutate COUNT SEED
   probe-shape     proves that a new shape needs one file and nothing else
 ";
 
@@ -37,6 +40,11 @@ fn main() -> ExitCode {
         ["schema"] => run::schema(&run::root()),
         ["reference"] => reference::write(&run::root()),
         ["gallery"] => gallery::gallery(),
+        ["mutate"] => mutate::mutate(50, 1),
+        ["mutate", count, seed] => match (count.parse(), seed.parse()) {
+            (Ok(count), Ok(seed)) => mutate::mutate(count, seed),
+            _ => Err("mutate takes two whole numbers: how many changes, and a seed".into()),
+        },
         ["probe-shape"] => probe::shape(),
         ["help" | "--help" | "-h"] => {
             print!("{USAGE}");

@@ -113,7 +113,7 @@ fn expect(what: &str, text: &str, words: &[&str]) -> Result {
 }
 
 /// Copies all files that git knows or would take up.
-fn copy_tracked(from: &Path, to: &Path) -> Result {
+pub(crate) fn copy_tracked(from: &Path, to: &Path) -> Result {
     let files = output(from, "git", &["ls-files", "--cached", "--others", "--exclude-standard"])?;
     for file in files.lines() {
         let (source, copy) = (from.join(file), to.join(file));

@@ -8,7 +8,7 @@ use crate::field::{Field, MaterialId, Node};
 use crate::formula::{Binary, Formula, Term, Unary};
 use crate::kernel::AFFINE_CONSTANTS;
 use crate::operation::{Code, Derive, Link, NO_REGION, Region, Run, Step, StepId, Steps};
-use crate::shape::{CombineTable, Kind, Shape};
+use crate::shape::{CombineTable, Kind, PrimitiveTable, Shape};
 use crate::shapes::{self, extrude, formula, twist};
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
@@ -134,8 +134,12 @@ impl Compiler {
                 let args = tree.args.clone();
                 let slope = self.derived(1, |out| Derive::Slope { table, args, out: out.start }).start() as u32;
                 let point = space.point;
-                let value = self.push(Step::Primitive { table, point, at, constants, slope, region });
-                self.joined(before, value)
+                let mut result = before;
+                for constants in self.parts(table, &tree.args, constants) {
+                    let value = self.push(Step::Primitive { table, point, at, constants, slope, region });
+                    result = Some(self.joined(result, value));
+                }
+                result.expect("there is a part")
             }
             Kind::Formula => {
                 let value = self.formula_node(tree, space, material);
@@ -169,7 +173,7 @@ impl Compiler {
             }
             Kind::Copies(table) => {
                 // How many there are shapes the steps.
-                self.fixed.extend(tree.args.clone());
+                self.fixed.extend(table.counted.clone().map(|index| tree.args.start + index));
                 let Kind::Combine(union) = &shapes::UNION.kind else { unreachable!("union combines") };
                 let numbers = node.numbers();
                 let mut result = before;
@@ -361,6 +365,22 @@ impl Compiler {
         let count = prepare(&self.values[args.clone()]).len();
         let args = args.clone();
         self.derived(count, |out| Derive::Prepare { prepare, args, out })
+    }
+
+    /// The constants of each part of a primitive.
+    fn parts(&mut self, table: &'static PrimitiveTable, args: &Range<usize>, constants: Run) -> Vec<Run> {
+        let parts = (table.parts)(&self.values[args.clone()]);
+        if parts.len() < 2 {
+            return vec![constants];
+        }
+        let mut start = constants.start();
+        let run = |count: &usize| {
+            start += count;
+            Run::from(start - count..start)
+        };
+        let runs = parts.iter().map(run).collect();
+        self.derive.push(Derive::Parts { table, args: args.clone(), parts });
+        runs
     }
 
     fn derived(&mut self, count: usize, make: impl FnOnce(Range<usize>) -> Derive) -> Run {

@@ -129,6 +129,13 @@ impl Field {
         Self(Arc::new(Node { shape, args, children, material, formulas: Vec::new(), origin, depth }))
     }
 
+    /// The same call, written elsewhere.
+    #[must_use]
+    pub fn written_at(mut self, origin: Origin) -> Self {
+        Arc::make_mut(&mut self.0).origin = origin;
+        self
+    }
+
     /// The call with the one formula that it takes.
     #[must_use]
     pub fn with_formula(self, formula: Result<Formula, FormulaError>) -> Self {

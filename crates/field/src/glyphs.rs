@@ -1,13 +1,17 @@
 //! Texts as closed lines: the letters of a font, one after another.
 //!
-//! The font is a part of Noto Sans (SIL Open Font License 1.1, see `assets/OFL.txt`): Latin, Greek and Cyrillic letters.
+//! Which letters there are and where is settled by a shaping engine, so that kerning, ligatures, accents and joined scripts come out
+//! as a reader expects; a line runs in one direction, that of its first letters.
 
 use crate::arcs::Lines;
+use crate::fill::{Rule, filled};
 use glam::DVec2;
-use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
-use ttf_parser::{Face, GlyphId, OutlineBuilder};
+use rustybuzz::ttf_parser::OutlineBuilder;
+use rustybuzz::ttf_parser::GlyphId;
+use rustybuzz::{Face, UnicodeBuffer};
 
-static FONT: &[u8] = include_bytes!("../assets/NotoSans-Regular.ttf");
+/// The font that comes along: a part of Noto Sans (SIL Open Font License 1.1, see `assets/OFL.txt`): Latin, Greek and Cyrillic letters.
+pub(crate) static NOTO_SANS: &[u8] = include_bytes!("../assets/NotoSans-Regular.ttf");
 
 /// Arcs are within this share of the font size from the curves of letters.
 const TOLERANCE: f64 = 2e-4;
@@ -20,68 +24,63 @@ pub(crate) enum Align {
     Right,
 }
 
-/// The font.
-fn face() -> Face<'static> {
-    Face::parse(FONT, 0).expect("the font that comes along is sound")
-}
+/// A font.
+pub(crate) struct Font<'a>(Face<'a>);
 
-/// The first letter of a text that the font does not have.
-pub(crate) fn missing(text: &str) -> Option<char> {
-    let face = face();
-    text.chars().find(|&c| c != '\n' && face.glyph_index(c).is_none())
-}
-
-/// The closed lines of a text, with arguments as those of an outline. `size` is the height of the font; the first baseline is the x
-/// axis, and the next one lies lower by `spacing` times the usual distance.
-pub(crate) fn lines(text: &str, size: f64, spacing: f64, align: Align) -> Vec<f64> {
-    let face = face();
-    let scale = size / f64::from(face.units_per_em());
-    let leading = spacing * scale * f64::from(face.height() + face.line_gap());
-    let mut pen = Pen { lines: Lines::new(size * TOLERANCE), origin: DVec2::ZERO, scale };
-    for (number, line) in text.split('\n').enumerate() {
-        let glyphs: Vec<GlyphId> = line.chars().filter_map(|c| face.glyph_index(c)).collect();
-        let mut places = Vec::with_capacity(glyphs.len());
-        let mut at = 0.0;
-        for (index, &glyph) in glyphs.iter().enumerate() {
-            if index > 0 {
-                at += f64::from(kerning(&face, glyphs[index - 1], glyph));
-            }
-            places.push(at);
-            at += f64::from(face.glyph_hor_advance(glyph).unwrap_or(0));
-        }
-        let start = match align {
-            Align::Left => 0.0,
-            Align::Center => -at / 2.0,
-            Align::Right => -at,
-        };
-        for (glyph, place) in glyphs.into_iter().zip(places) {
-            pen.origin = DVec2::new((start + place) * scale, -leading * number as f64);
-            face.outline_glyph(glyph, &mut pen);
-        }
+impl<'a> Font<'a> {
+    /// The font that a file holds, the first one of a collection; `None` if it is none of TrueType or OpenType.
+    pub(crate) fn of(contents: &'a [u8]) -> Option<Self> {
+        Face::from_slice(contents, 0).map(Self)
     }
-    pen.lines.finish()
-}
 
-/// What is added to the advance between two letters.
-fn kerning(face: &Face<'_>, left: GlyphId, right: GlyphId) -> i16 {
-    let Some(table) = face.tables().gpos else { return 0 };
-    let mut sum = 0;
-    for lookup in table.lookups {
-        let by = lookup.subtables.into_iter::<PositioningSubtable<'_>>().find_map(|subtable| match subtable {
-            PositioningSubtable::Pair(PairAdjustment::Format1 { coverage, sets }) => {
-                let (first, _) = sets.get(coverage.get(left)?)?.get(right)?;
-                Some(first.x_advance)
-            }
-            PositioningSubtable::Pair(PairAdjustment::Format2 { coverage, classes, matrix }) => {
-                coverage.get(left)?;
-                let (first, _) = matrix.get((classes.0.get(left), classes.1.get(right)))?;
-                Some(first.x_advance)
-            }
-            _ => None,
-        });
-        sum += by.unwrap_or(0);
+    /// The font that comes along.
+    pub(crate) fn noto_sans() -> Font<'static> {
+        Font::of(NOTO_SANS).expect("the font that comes along is sound")
     }
-    sum
+
+    /// The first letter of a text that the font does not have.
+    pub(crate) fn missing(&self, text: &str) -> Option<char> {
+        text.split('\n').find_map(|line| {
+            let shaped = self.shaped(line);
+            let missing = shaped.glyph_infos().iter().find(|info| info.glyph_id == 0)?;
+            line[missing.cluster as usize..].chars().next()
+        })
+    }
+
+    /// The closed lines of a text, with arguments as those of an outline. `size` is the height of the font; the first baseline is the x
+    /// axis, and the next one lies lower by `spacing` times the usual distance.
+    pub(crate) fn lines(&self, text: &str, size: f64, spacing: f64, align: Align) -> Vec<f64> {
+        let scale = size / f64::from(self.0.units_per_em());
+        let leading = spacing * scale * (f64::from(self.0.height()) + f64::from(self.0.line_gap()));
+        let mut letters = Vec::new();
+        for (number, line) in text.split('\n').enumerate() {
+            let shaped = self.shaped(line);
+            let width: f64 = shaped.glyph_positions().iter().map(|place| f64::from(place.x_advance)).sum();
+            let mut at = match align {
+                Align::Left => 0.0,
+                Align::Center => -width / 2.0,
+                Align::Right => -width,
+            };
+            for (info, place) in shaped.glyph_infos().iter().zip(shaped.glyph_positions()) {
+                let own = DVec2::new(at + f64::from(place.x_offset), place.y_offset.into()) * scale;
+                let origin = own - DVec2::Y * (leading * number as f64);
+                let mut pen = Pen { lines: Lines::new(size * TOLERANCE), origin, scale };
+                self.0.outline_glyph(GlyphId(info.glyph_id as u16), &mut pen);
+                letters.extend(pen.lines.finish());
+                at += f64::from(place.x_advance);
+            }
+        }
+        // Parts of a letter may overlap, and so may letters that are joined.
+        filled(letters, Rule::NonZero, size * TOLERANCE)
+    }
+
+    /// The letters of a line and their places.
+    fn shaped(&self, line: &str) -> rustybuzz::GlyphBuffer {
+        let mut buffer = UnicodeBuffer::new();
+        buffer.push_str(line);
+        buffer.guess_segment_properties();
+        rustybuzz::shape(&self.0, &[], buffer)
+    }
 }
 
 /// Draws a letter.

@@ -33,12 +33,14 @@ mod compile;
 pub mod contract;
 pub mod curve;
 pub mod diagnostic;
+mod drawing;
 pub mod elementary;
 pub mod enclose;
 pub mod evaluator;
 pub mod explore;
 pub mod expr;
 pub mod field;
+mod fill;
 mod focus;
 pub mod formula;
 mod formula_kernel;
@@ -77,7 +79,7 @@ pub use operation::Region;
 pub use outline::{Action, Outline};
 pub use program::{Part, Program};
 pub use scalar::{Constants, Dual, Interval, Scalar};
-pub use shape::{Arity, Kind, Param, ParamKind, Shape};
+pub use shape::{Arity, FileParam, Kind, Param, ParamKind, Shape};
 pub use structure::Structure;
 pub use vector::{Vec3, vec3};
 
@@ -88,7 +90,7 @@ mod shape_prelude {
     pub(crate) use crate::kernel::{PrimitiveKernel, primitive_models};
     pub(crate) use crate::scalar::{Constants, Interval, Scalar};
     pub(crate) use crate::shape::{
-        AXIS, About, Combine, Copies, ExactForm, Hull, Map, Modify, Param, ParamKind, Place, PlaceCall, Primitive,
+        AXIS, About, Combine, Copies, ExactForm, FileParam, Hull, Map, Modify, Param, ParamKind, Place, PlaceCall, Primitive,
         Settled, Shape, Special, Supports, in_plane,
     };
     pub(crate) use crate::vector::{Vec3, vec3};

@@ -177,6 +177,8 @@ pub(crate) struct Steps {
 pub(crate) enum Derive {
     /// A node's own `prepare`.
     Prepare { prepare: fn(&[f64]) -> Vec<f64>, args: Range<usize>, out: Range<usize> },
+    /// None, but a primitive falls into these parts.
+    Parts { table: &'static PrimitiveTable, args: Range<usize>, parts: Vec<usize> },
     /// The inverse of a chain of affine maps, to be applied to points of a register.
     Affine { chain: Vec<Link>, from_root: bool, out: Range<usize> },
     /// The same for a chain of translations: what to subtract.

@@ -415,6 +415,11 @@ fn derive(code: &Code, values: &[f64], origin: DVec3) -> Result<Vec<f64>, BindEr
                 }
                 constants[out.clone()].copy_from_slice(&own);
             }
+            Derive::Parts { table, args, parts } => {
+                if (table.parts)(&values[args.clone()]) != *parts {
+                    return Err(BindError::Structure);
+                }
+            }
             Derive::Affine { chain, from_root, out } => {
                 let (matrix, mut translation) = inverse_of(chain, values);
                 if *from_root {

@@ -16,7 +16,7 @@ mod param;
 mod table;
 mod traits;
 
-pub use param::{AXIS, About, Param, ParamKind, SHORTEST_DIRECTION};
+pub use param::{AXIS, About, FileParam, Param, ParamKind, SHORTEST_DIRECTION};
 pub use table::{CombineTable, CopiesTable, MapTable, ModifyTable, PlaceTable, PrimitiveTable};
 pub(crate) use traits::in_plane;
 pub use traits::{
@@ -30,6 +30,8 @@ pub struct Shape {
     pub about: About,
     /// What it does.
     pub kind: Kind,
+    /// A file that it can be made with.
+    pub file: Option<FileParam>,
 }
 
 /// The kinds of functions.
@@ -75,42 +77,48 @@ pub struct FormulaParam {
 impl Shape {
     /// The descriptor of a primitive.
     pub const fn primitive<P: Primitive>() -> Self {
-        Self { about: P::ABOUT, kind: Kind::Primitive(PrimitiveTable::of::<P>()) }
+        Self { about: P::ABOUT, kind: Kind::Primitive(PrimitiveTable::of::<P>()), file: None }
     }
 
     /// The descriptor of a special case of a primitive.
     pub const fn special<S: Special>() -> Self {
-        Self { about: S::ABOUT, kind: Kind::Primitive(PrimitiveTable::of_special::<S>()) }
+        Self { about: S::ABOUT, kind: Kind::Primitive(PrimitiveTable::of_special::<S>()), file: None }
     }
 
     /// The descriptor of a way to combine fields.
     pub const fn combine<C: Combine>() -> Self {
-        Self { about: C::ABOUT, kind: Kind::Combine(CombineTable::of::<C>()) }
+        Self { about: C::ABOUT, kind: Kind::Combine(CombineTable::of::<C>()), file: None }
     }
 
     /// The descriptor of a way to make bodies of figures: `C` combines the figure's distance with that along the height.
     pub const fn extrude<C: Combine>() -> Self {
-        Self { about: C::ABOUT, kind: Kind::Extrude(CombineTable::of::<C>()) }
+        Self { about: C::ABOUT, kind: Kind::Extrude(CombineTable::of::<C>()), file: None }
     }
 
     /// The descriptor of an affine map.
     pub const fn place<P: Place>() -> Self {
-        Self { about: P::ABOUT, kind: Kind::Place(PlaceTable::of::<P>()) }
+        Self { about: P::ABOUT, kind: Kind::Place(PlaceTable::of::<P>()), file: None }
     }
 
     /// The descriptor of a map.
     pub const fn map<M: Map>() -> Self {
-        Self { about: M::ABOUT, kind: Kind::Map(MapTable::of::<M>()) }
+        Self { about: M::ABOUT, kind: Kind::Map(MapTable::of::<M>()), file: None }
     }
 
     /// The descriptor of a union of copies.
     pub const fn copies<C: Copies>() -> Self {
-        Self { about: C::ABOUT, kind: Kind::Copies(CopiesTable::of::<C>()) }
+        Self { about: C::ABOUT, kind: Kind::Copies(CopiesTable::of::<C>()), file: None }
     }
 
     /// The descriptor of a change of the distance.
     pub const fn modify<M: Modify>() -> Self {
-        Self { about: M::ABOUT, kind: Kind::Modify(ModifyTable::of::<M>()) }
+        Self { about: M::ABOUT, kind: Kind::Modify(ModifyTable::of::<M>()), file: None }
+    }
+
+    /// The same, with a file that it can be made with.
+    #[must_use]
+    pub const fn with_file(self, file: FileParam) -> Self {
+        Self { about: self.about, kind: self.kind, file: Some(file) }
     }
 
     /// The functions of a combination, be it of shapes, or of a figure and its height.

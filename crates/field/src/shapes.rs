@@ -79,6 +79,7 @@ pub mod rotate_quaternion;
 pub mod round;
 pub mod round_cone;
 pub mod scale;
+pub mod scatter;
 pub mod sector;
 pub mod shear;
 pub mod sheet;
@@ -94,6 +95,7 @@ pub mod staircase;
 pub mod stairs;
 pub mod star;
 pub mod stretch;
+pub mod svg;
 pub mod svg_path;
 pub mod swirl;
 pub mod symmetry;
@@ -186,6 +188,7 @@ pub use rotate_quaternion::*;
 pub use round::*;
 pub use round_cone::*;
 pub use scale::*;
+pub use scatter::*;
 pub use sector::*;
 pub use shear::*;
 pub use sheet::*;
@@ -201,6 +204,7 @@ pub use staircase::*;
 pub use stairs::*;
 pub use star::*;
 pub use stretch::*;
+pub use svg::*;
 pub use svg_path::*;
 pub use swirl::*;
 pub use symmetry::*;
@@ -307,6 +311,7 @@ pub static ALL: &[&Shape] = &[
     &ROUND_DIFFERENCE,
     &ROUND_CONE,
     &SCALE,
+    &SCATTER,
     &SECTOR,
     &SHEAR,
     &SHEET,
@@ -324,6 +329,7 @@ pub static ALL: &[&Shape] = &[
     &STAIRS_DIFFERENCE,
     &STAR,
     &STRETCH,
+    &SVG,
     &SVG_PATH,
     &SWIRL,
     &SYMMETRY,

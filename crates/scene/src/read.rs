@@ -1,6 +1,7 @@
 //! Reading scene files.
 
 use crate::diagnostic::{Diagnostic, Severity};
+use crate::files::{Files, NoFiles};
 use crate::notation::Notation;
 use crate::reader::{Reader, span};
 use crate::record::Record;
@@ -17,6 +18,8 @@ pub struct Reading {
     pub scene: Option<Scene>,
     /// All mistakes, in the order of their places.
     pub diagnostics: Vec<Diagnostic>,
+    /// The names of the files that were read for it.
+    pub files: Vec<String>,
 }
 
 impl Reading {
@@ -45,9 +48,14 @@ pub const VERSION: u32 = 1;
 /// assert_eq!(&text[reading.diagnostics[0].span.clone()], "\"radios\"");
 /// ```
 pub fn read(text: &str) -> Reading {
+    read_with(text, NoFiles)
+}
+
+/// Reads a scene file that may name other files: fonts, pictures, lists of points. See [`read()`].
+pub fn read_with(text: &str, files: impl Files + 'static) -> Reading {
     // Some editors begin a file with a byte order mark, which is no part of the JSON.
     let body = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut reading = read_body(body);
+    let mut reading = read_body(body, Reader::new(files));
     for diagnostic in &mut reading.diagnostics {
         let shift = text.len() - body.len();
         diagnostic.span = diagnostic.span.start + shift..diagnostic.span.end + shift;
@@ -58,20 +66,19 @@ pub fn read(text: &str) -> Reading {
 /// How many brackets may enclose a value in a scene file; two are spent on a shape within a shape.
 pub const MOST_NESTED: usize = crate::syntax::DEEPEST;
 
-fn read_body(text: &str) -> Reading {
-    let mut reader = Reader::new();
+fn read_body(text: &str, mut reader: Reader) -> Reading {
     let Some(root) = parse(text, &mut reader.diagnostics) else {
-        return Reading { scene: None, diagnostics: reader.diagnostics };
+        return Reading { scene: None, diagnostics: reader.diagnostics, files: Vec::new() };
     };
     if let Some(newer) = newer_version(&root) {
-        return Reading { scene: None, diagnostics: vec![newer] };
+        return Reading { scene: None, diagnostics: vec![newer], files: Vec::new() };
     }
     let scene = reader.labelled("the scene".into(), |reader| Scene::read(reader, &root));
     analyse_roots(&mut reader);
     let mut diagnostics = reader.diagnostics;
     diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
     let is_sound = diagnostics.iter().all(|diagnostic| diagnostic.severity != Severity::Error);
-    Reading { scene: scene.filter(|_| is_sound), diagnostics }
+    Reading { scene: scene.filter(|_| is_sound), diagnostics, files: reader.files_read }
 }
 
 /// What to say of a file for a newer program: nothing else in it can be judged.

@@ -3,6 +3,7 @@
 //! Every value is read to the end whatever is wrong around it, and each mistake is reported once, where it is.
 
 use crate::diagnostic::{Diagnostic, Severity};
+use crate::files::Files;
 use crate::notation::Notation;
 use crate::suggest::{closest, listed, quote};
 use crate::syntax::Written;
@@ -13,8 +14,12 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 /// The state of reading one document.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Reader {
+    /// Where files come from that the document names.
+    pub(crate) files: Box<dyn Files>,
+    /// The names of those that were read.
+    pub(crate) files_read: Vec<String>,
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// The materials by name; `None` if nothing sound is known about them.
     pub(crate) materials: Option<HashMap<String, u32>>,
@@ -37,9 +42,18 @@ pub(crate) struct NodePlace {
 }
 
 impl Reader {
-    /// For a document without materials, until some are read.
-    pub(crate) fn new() -> Self {
-        Self { materials: Some(HashMap::new()), ..Self::default() }
+    /// For a document with these files, and without materials, until some are read.
+    pub(crate) fn new(files: impl Files + 'static) -> Self {
+        Self {
+            files: Box::new(files),
+            files_read: Vec::new(),
+            diagnostics: Vec::new(),
+            materials: Some(HashMap::new()),
+            nodes: Vec::new(),
+            roots: Vec::new(),
+            label: String::new(),
+            errors: 0,
+        }
     }
 
     pub(crate) fn report(

@@ -8,13 +8,14 @@ mod formula;
 mod param;
 
 use self::formula::FormulaNotation;
+use crate::files::FileNotation;
 use crate::notation::Notation;
 use crate::object::MaterialNotation;
 use crate::reader::{Entries, NodePlace, Reader, name_span, span};
 use crate::schema::{Definitions, Need, ObjectSchema};
 use crate::suggest::{closest, quote};
 use crate::syntax::Written;
-use freikugel_field::shape::FormulaParam;
+use freikugel_field::shape::{FileParam, FormulaParam};
 use freikugel_field::{Arity, Field, Formula, Kind, MaterialId, Origin, Shape, Value, shapes};
 use jsonc_parser::ast::ObjectProp;
 use serde_json::{Value as Json, json};
@@ -140,6 +141,7 @@ fn call(reader: &mut Reader, shape: &'static Shape, index: usize, value: &Writte
     let mut keys: Vec<&'static str> = shape.formulas().iter().map(|formula| formula.name).collect();
     keys.extend(about.params.iter().map(|param| param.name));
     keys.extend(is_paint.then_some(MATERIAL));
+    keys.extend(shape.file.map(|file| file.name));
     keys.extend(child_key(arity));
     let what = quote(about.name);
 
@@ -182,9 +184,33 @@ fn call(reader: &mut Reader, shape: &'static Shape, index: usize, value: &Writte
             None => vec![None],
         },
     };
+    if let Some((file, value)) = shape.file.and_then(|file| Some((file, entries.get(file.name)?))) {
+        return made_with(reader, &file, value, index, args);
+    }
     let formulas = formulas(reader, shape, &entries);
     let field = finish(reader, shape, index, args, material, children)?;
     Some(field.with_formulas(formulas?.into_iter().map(Ok)))
+}
+
+/// The shape that is made with a file, or `None` after reporting what is wrong with it.
+fn made_with(
+    reader: &mut Reader,
+    file: &FileParam,
+    value: &Written<'_>,
+    index: usize,
+    args: Option<Vec<f64>>,
+) -> Option<Field> {
+    let contents = reader.labelled(quote(file.name), |reader| FileNotation.read(reader, value));
+    let built = (file.build)(&args?, &contents?);
+    // Its arguments are others than those that stand in the document.
+    reader.nodes[index].params.clear();
+    let field = built.map_err(|fault| reader.error(span(value), fault, None)).ok()?;
+    Some(field.written_at(origin(index)))
+}
+
+/// Where a node of the document was written.
+fn origin(index: usize) -> Origin {
+    Origin::Document(u32::try_from(index).unwrap_or(u32::MAX))
 }
 
 /// All formulas that a function takes, or `None` after reporting what is wrong with them.
@@ -237,8 +263,7 @@ fn finish(
         return None;
     };
     let args = args.into_iter().map(Value::Literal);
-    let origin = Origin::Document(u32::try_from(index).unwrap_or(u32::MAX));
-    Some(Field::with_origin(shape, args, children, material, origin))
+    Some(Field::with_origin(shape, args, children, material, origin(index)))
 }
 
 /// The numbers of all parameters, defaults included, or `None` after reporting what is wrong with them.
@@ -284,6 +309,9 @@ fn function_schema(shape: &'static Shape, definitions: &mut Definitions) -> Json
             Some(text) => Need::Optional(Some(json!(text))),
         };
         object.key(param.name, param.about, FormulaNotation.schema(definitions), need);
+    }
+    if let Some(file) = shape.file {
+        object.key(file.name, file.about, FileNotation.schema(definitions), Need::Optional(None));
     }
     // A shape's definition is under construction here; this only names it.
     let child = || json!({ "$ref": "#/$defs/shape" });

@@ -1,5 +1,6 @@
 //! What a user reads about a function, and its parameters.
 
+use crate::field::Field;
 use glam::DVec3;
 
 /// What a user reads about a function, and what a reader of scenes needs to decode it.
@@ -84,6 +85,18 @@ pub enum ParamKind {
     Text,
     /// A list of half-spaces, each with an outward normal and the distance of its plane from the origin: x, y, z, d.
     HalfSpaces,
+}
+
+/// A file among what a shape takes, which it is made with, and not kept.
+#[derive(Clone, Copy, Debug)]
+pub struct FileParam {
+    /// Its key in scene files.
+    pub name: &'static str,
+    /// What it is for, and what the shape is without it.
+    pub about: &'static str,
+    /// The shape of these arguments, which passed all checks of single parameters, with the contents of the file; or what is wrong with
+    /// these.
+    pub build: fn(&[f64], &[u8]) -> Result<Field, String>,
 }
 
 impl ParamKind {

@@ -8,6 +8,7 @@ use crate::expr::Expr;
 use crate::kernel::{CombineKernels, MapKernels, ModifyKernels, PrimitiveKernel, PrimitiveKernels};
 use crate::scalar::{Constants, Interval};
 use glam::{DAffine3, DVec3};
+use std::ops::Range;
 
 /// The functions of a [`Primitive`].
 #[derive(Debug)]
@@ -17,6 +18,7 @@ pub struct PrimitiveTable {
     pub dimension: Dimension,
     pub check: fn(&[f64]) -> Result<(), String>,
     pub prepare: fn(&[f64]) -> Vec<f64>,
+    pub parts: fn(&[f64]) -> Vec<usize>,
     pub contract: fn(&[f64]) -> Contract,
     pub support: fn(&[f64], DVec3, f64) -> f64,
     pub exact_form: fn(&[f64]) -> Option<ExactForm>,
@@ -67,6 +69,7 @@ pub struct MapTable {
 #[allow(missing_docs, reason = "documented at the trait's items of the same names")]
 pub struct CopiesTable {
     pub are_moved: bool,
+    pub counted: Range<usize>,
     pub count: fn(&[f64]) -> usize,
     pub places: fn(&[f64], usize) -> Vec<PlaceCall>,
 }
@@ -101,6 +104,7 @@ impl PrimitiveTable {
             dimension: P::DIMENSION,
             check: P::check,
             prepare: P::prepare,
+            parts: P::parts,
             contract: P::contract,
             support: P::support,
             exact_form: P::exact_form,
@@ -117,6 +121,7 @@ impl PrimitiveTable {
         Self {
             check: S::check,
             prepare: |args| S::General::prepare(&S::general(args)),
+            parts: |args| S::General::parts(&S::general(args)),
             contract: |args| S::General::contract(&S::general(args)),
             support: support::<S>,
             exact_form: |args| S::General::exact_form(&S::general(args)),
@@ -175,7 +180,7 @@ impl MapTable {
 impl CopiesTable {
     /// The functions of one kind of copies.
     pub const fn of<C: Copies>() -> Self {
-        Self { are_moved: C::ARE_MOVED, count: C::count, places: C::places }
+        Self { are_moved: C::ARE_MOVED, counted: C::COUNTED, count: C::count, places: C::places }
     }
 }
 

@@ -6,6 +6,7 @@ use crate::kernel::PrimitiveKernel;
 use crate::scalar::{Constants, Interval, Scalar};
 use crate::vector::Vec3;
 use glam::{DAffine3, DVec3};
+use std::ops::Range;
 
 /// A field made from nothing but parameters.
 pub trait Primitive: 'static {
@@ -31,6 +32,12 @@ pub trait Primitive: 'static {
     /// The constants of the formula, from parameters that passed all checks.
     fn prepare(args: &[f64]) -> Vec<f64> {
         args.to_vec()
+    }
+
+    /// How many constants each of several parts has, if the field is the minimum of these in value and contract: each is then
+    /// computed by itself, and where it can't matter not at all. Those of a part follow one another in [`Primitive::prepare`].
+    fn parts(_args: &[f64]) -> Vec<usize> {
+        Vec::new()
     }
 
     /// What is known about the field, apart from its extent.
@@ -225,6 +232,9 @@ pub trait Copies: 'static {
 
     /// Whether copies are moved and never turned.
     const ARE_MOVED: bool = false;
+
+    /// The arguments that decide how many copies there are; the others just move them.
+    const COUNTED: Range<usize>;
 
     /// How many copies there are: one at least.
     fn count(args: &[f64]) -> usize;

@@ -231,6 +231,7 @@ const fn derived<F: Family>(
             kernels: CombineKernels::of::<Blend<F>>(),
             share: share::<F>,
         }),
+        file: None,
     }
 }
 

@@ -17,6 +17,7 @@ pub static DISPLACE: Shape = Shape {
         example: r#"{ "displace": { "by": "0.06*sin(12x)*sin(12y)*sin(12z)", "shape": { "sphere": { "radius": 1 } } } }"#,
     },
     kind: Kind::Displace,
+    file: None,
 };
 
 /// Adding a formula to a distance.

@@ -36,6 +36,7 @@ pub static FORMULA: Shape = Shape {
         example: r#"{ "formula": { "f": "x^2 + y^2 - z^2 - 0.2", "within": { "sphere": 1.5 } } }"#,
     },
     kind: Kind::Formula,
+    file: None,
 };
 
 /// The solid where the formula in `text` is negative.

@@ -4,6 +4,8 @@
 //! an arc and its chord: both ask on which side of the chord a point lies in the same way, so that nothing shows where they meet.
 
 use super::polygon::crosses;
+use crate::fill::components;
+use crate::remember::remembered;
 use crate::scalar::Mask;
 use crate::shape_prelude::*;
 use glam::DVec2;
@@ -106,6 +108,24 @@ impl Edge {
     }
 }
 
+/// What stands in place of 1 at the last corner of the last line of a group.
+const GROUP_ENDS: f64 = 2.0;
+
+/// Lines that come nearer to each other than this share of the figure's size count as crossing.
+const APART: f64 = 1e-5;
+
+/// The arguments in an order in which the lines of each part of the figure follow one another.
+fn grouped(args: &[f64]) -> Vec<f64> {
+    remembered("outline", args, || {
+        let size = args.chunks_exact(4).flat_map(|corner| [corner[0].abs(), corner[1].abs()]).fold(0.0, f64::max);
+        let mut groups = components(args, size * APART);
+        for end in groups.iter_mut().filter_map(|group| group.last_mut()) {
+            *end = GROUP_ENDS;
+        }
+        groups.concat()
+    })
+}
+
 /// How many constants an edge has.
 const ROW: usize = 9;
 
@@ -149,7 +169,13 @@ impl Primitive for Outline {
     }
 
     fn prepare(args: &[f64]) -> Vec<f64> {
-        edges(args).into_iter().flat_map(Edge::constants).collect()
+        edges(&grouped(args)).into_iter().flat_map(Edge::constants).collect()
+    }
+
+    fn parts(args: &[f64]) -> Vec<usize> {
+        let grouped = grouped(args);
+        let corners: Vec<&[f64]> = grouped.chunks_exact(4).collect();
+        corners.split_inclusive(|corner| corner[3] == GROUP_ENDS).map(|group| group.len() * ROW).collect()
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {

@@ -25,4 +25,5 @@ pub static PAINT: Shape = Shape {
         example: r##"{ "paint": { "material": "clay", "shape": { "sphere": { "radius": 1 } } } }"##,
     },
     kind: Kind::Paint,
+    file: None,
 };

@@ -2,6 +2,7 @@
 
 use super::translate::TRANSLATE;
 use crate::shape_prelude::*;
+use std::ops::Range;
 
 /// See [`Repeat::repeat`].
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +40,8 @@ impl Copies for Grid {
     };
 
     const ARE_MOVED: bool = true;
+
+    const COUNTED: Range<usize> = 3..6;
 
     fn count(args: &[f64]) -> usize {
         args[3..].iter().map(|&count| count as usize).product()

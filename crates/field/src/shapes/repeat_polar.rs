@@ -3,6 +3,7 @@
 use super::rotate::ROTATE;
 use super::translate::TRANSLATE;
 use crate::shape_prelude::*;
+use std::ops::Range;
 
 /// See [`RepeatPolar::repeat_polar`].
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +52,8 @@ impl Copies for Polar {
         example: r#"{ "repeat_polar": { "count": 7, "shape": {
             "translate": { "by": [0.8, 0, 0], "shape": { "box": { "size": [0.3, 0.3, 0.6], "round": 0.05 } } } } } }"#,
     };
+
+    const COUNTED: Range<usize> = 0..1;
 
     fn count(args: &[f64]) -> usize {
         args[0] as usize

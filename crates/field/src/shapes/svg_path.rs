@@ -1,7 +1,8 @@
 //! Figure of the path data of an SVG picture. Curves become arcs within a tolerance; the distance from these is exact.
 
-use super::outline::{Edge, Outline, edges};
+use super::outline::Outline;
 use crate::arcs::Lines;
+use crate::fill::{Rule, filled};
 use crate::remember::remembered;
 use crate::shape_prelude::*;
 use glam::DVec2;
@@ -24,9 +25,6 @@ pub fn svg_path(data: &str) -> Form<SvgPath> {
 
 /// Arcs are within this share of the size of the path from its curves.
 const TOLERANCE: f64 = 1e-4;
-
-/// A step to either side of an edge, as a share of its length: less than to the next edge, but for the finest of figures.
-const BESIDE: f64 = 1e-4;
 
 /// The text of a list of characters.
 pub(crate) fn text_of(codes: &[f64]) -> String {
@@ -60,14 +58,14 @@ impl Special for SvgPath {
 
     fn general(args: &[f64]) -> Vec<f64> {
         remembered("svg_path", args, || {
-            let lines = lines(args).unwrap_or_default();
-            if args[0] == 0.0 { nonzero(&lines) } else { lines }
+            let Ok((lines, tolerance)) = lines(args) else { return Vec::new() };
+            filled(lines, if args[0] == 0.0 { Rule::NonZero } else { Rule::EvenOdd }, tolerance)
         })
     }
 }
 
-/// The closed lines of a path, with arguments as those of an outline.
-fn lines(args: &[f64]) -> Result<Vec<f64>, String> {
+/// The closed lines of a path, with arguments as those of an outline, and the tolerance they were made with.
+fn lines(args: &[f64]) -> Result<(Vec<f64>, f64), String> {
     let data = text_of(&args[1..]);
     let segments: Vec<SimplePathSegment> = SimplifyingPathParser::from(data.as_str())
         .collect::<Result<_, _>>()
@@ -82,7 +80,8 @@ fn lines(args: &[f64]) -> Result<Vec<f64>, String> {
     });
     let (low, high) = ends.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
     let size = (high - low).max_element().max(f64::MIN_POSITIVE);
-    let mut lines = Lines::new(size * TOLERANCE);
+    let tolerance = size * TOLERANCE;
+    let mut lines = Lines::new(tolerance);
     for segment in segments {
         match segment {
             SimplePathSegment::MoveTo { x, y } => lines.move_to(point(x, y)),
@@ -94,49 +93,5 @@ fn lines(args: &[f64]) -> Result<Vec<f64>, String> {
             SimplePathSegment::ClosePath => lines.close(),
         }
     }
-    Ok(lines.finish())
-}
-
-/// Those of some closed lines on one side of which points are wound around, and on the other side not: what the rule `nonzero` makes
-/// the border of a figure, as long as lines don't cross.
-fn nonzero(lines: &[f64]) -> Vec<f64> {
-    let edges = edges(lines);
-    let mut kept = Vec::new();
-    let mut first = 0;
-    for (index, corner) in lines.chunks_exact(4).enumerate() {
-        if corner[3] == 0.0 {
-            continue;
-        }
-        // Beside the middle of the longest edge.
-        let own = &edges[first..=index];
-        let longest = own.iter().copied().max_by(|a, b| a.length().total_cmp(&b.length()));
-        if let Some(edge) = longest {
-            let side = |sign: f64| winding(&edges, edge.middle() + edge.normal() * (sign * BESIDE * edge.length()));
-            if (side(1.0) == 0) != (side(-1.0) == 0) {
-                kept.extend_from_slice(&lines[4 * first..4 * (index + 1)]);
-            }
-        }
-        first = index + 1;
-    }
-    kept
-}
-
-/// How often edges lead around a point, counter-clockwise.
-fn winding(edges: &[Edge], p: DVec2) -> i32 {
-    let mut count = 0;
-    for edge in edges {
-        let is_left = (edge.to - edge.from).perp_dot(p - edge.from) > 0.0;
-        match (edge.from.y <= p.y, edge.to.y <= p.y) {
-            (true, false) if is_left => count += 1,
-            (false, true) if !is_left => count -= 1,
-            _ => {}
-        }
-        if let Some((centre, radius)) = edge.circle() {
-            let is_beyond_chord = is_left != (edge.turn > 0.0);
-            if is_beyond_chord && p.distance(centre) < radius {
-                count += if edge.turn > 0.0 { 1 } else { -1 };
-            }
-        }
-    }
-    count
+    Ok((lines.finish(), tolerance))
 }

@@ -26,6 +26,7 @@ pub static TWIST: Shape = Shape {
         example: r#"{ "twist": { "rate": 60, "shape": { "box": { "size": [1.2, 0.6, 2], "round": 0.1 } } } }"#,
     },
     kind: Kind::Twist,
+    file: None,
 };
 
 /// Twisting a shape.

@@ -24,6 +24,7 @@ pub static WARP: Shape = Shape {
             "shape": { "box": { "size": [0.9, 0.9, 2], "round": 0.1 } } } }"#,
     },
     kind: Kind::Warp,
+    file: None,
 };
 
 /// Deforming a shape.

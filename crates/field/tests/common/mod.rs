@@ -117,6 +117,10 @@ const PATHS: [&str; 3] = [
     "M-1 -1 H1 V1 H-1 Z M-0.5 -0.5 V0.5 H0.5 V-0.5 Z",
 ];
 const TEXTS: [&str; 3] = ["&a", "oi\n8", "Ä"];
+const PICTURES: [&str; 2] = [
+    "<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 0H2V1H1Z'/><circle r='1' fill='none' stroke='red'/></svg>",
+    "<svg xmlns='http://www.w3.org/2000/svg'><rect width='2' height='1' rx='0.3' transform='rotate(20)'/></svg>",
+];
 
 /// A random sound call of `shape` that is a body if there are such, with children of depth below `depth`.
 pub(crate) fn call(shape: &'static Shape, depth: u32, random: &mut Random) -> Field {
@@ -138,7 +142,11 @@ fn call_in(dimension: Dimension, shape: &'static Shape, depth: u32, random: &mut
                 continue;
             }
             if param.kind == ParamKind::Text {
-                let known = if param.name == "d" { &PATHS[..] } else { &TEXTS[..] };
+                let known = match param.name {
+                    "d" => &PATHS[..],
+                    "picture" => &PICTURES[..],
+                    _ => &TEXTS[..],
+                };
                 args.extend(known[random.below(known.len())].chars().map(|c| Value::from(u32::from(c))));
                 continue;
             }
@@ -412,7 +420,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         ("extrude", [height, round]) if *round == 0.0 => contains(children.next()?, p)? && p.z.abs() < height / 2.0,
         ("extrude", _) => return None,
         ("revolve", [offset]) => contains(children.next()?, DVec3::new(across - offset, p.z, 0.0))?,
-        ("repeat" | "repeat_polar", _) => {
+        ("repeat" | "repeat_polar" | "scatter", _) => {
             all(freikugel_field::copies(field)?.iter().map(|copy| contains(copy, p)))?.into_iter().any(|copy| copy)
         }
         ("repeat_mirrored", spacing) => {
@@ -531,7 +539,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             return None;
         }
         // Tested by themselves: what is inside, their own curves say.
-        ("text" | "svg_path" | "bezier" | "b_spline" | "spline", _) => return None,
+        ("text" | "svg" | "svg_path" | "bezier" | "b_spline" | "spline", _) => return None,
         (name, _) if is_blend(name) || is_carved(name) => return None,
         (name, args) => panic!("say in the membership test what lies inside {name} with {} numbers", args.len()),
     })

@@ -11,7 +11,7 @@ use freikugel::field::simd;
 use freikugel::render::{Options, Renderer};
 use freikugel::scene::{Camera, Scene};
 use glam::{DQuat, DVec3};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 const EXAMPLES: &str = "\
@@ -150,7 +150,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// The scenes of some files with their names, or those that come with the program.
 fn scenes(files: &[PathBuf], voxels: Option<u32>) -> Result<Vec<Measurement>, Failure> {
     let own = |&(name, text, own): &(&str, &str, Option<u32>)| {
-        let scene = input::parsed(text, name)?;
+        let scene = input::parsed(text, Path::new(name))?;
         Ok(Measurement { name: name.to_owned(), scene, voxels: voxels.or(own) })
     };
     let read = |path: &PathBuf| Ok(Measurement { name: input::name(path), scene: input::scene(path)?, voxels });

@@ -74,6 +74,10 @@ fn describe(shape: &Shape) -> String {
         let _ = writeln!(text, "  {:16} {}", param.name, param.about);
         let _ = writeln!(text, "  {:16} (a formula in x, y and z; {default})", "");
     }
+    if let Some(file) = shape.file {
+        let _ = writeln!(text, "  {:16} {}", file.name, file.about);
+        let _ = writeln!(text, "  {:16} ({{ \"file\": NAME }})", "");
+    }
     if matches!(shape.kind, Kind::Formula) {
         text.push_str("  The formula may stand alone as a text.\n");
     }
@@ -118,11 +122,11 @@ pub(super) fn values(param: &Param) -> (String, String) {
         ParamKind::Quaternion => "[x, y, z, w]".into(),
         ParamKind::Quadruple => "[real, i, j, k]".into(),
         ParamKind::Region => "{ \"sphere\": radius } or { \"box\": size }".into(),
-        ParamKind::Text => "a text".into(),
-        ParamKind::Points2 => "a list of [x, y]".into(),
-        ParamKind::Points3 => "a list of [x, y, z]".into(),
+        ParamKind::Text => "a text, or { \"file\": NAME }".into(),
+        ParamKind::Points2 => "a list of [x, y], or { \"file\": NAME } with a row of numbers for each".into(),
+        ParamKind::Points3 => "a list of [x, y, z], or { \"file\": NAME } with a row of numbers for each".into(),
         ParamKind::Contours => "a list of [x, y] or [x, y, angle], or a list of such lists".into(),
-        ParamKind::HalfSpaces => "a list of [x, y, z, d]".into(),
+        ParamKind::HalfSpaces => "a list of [x, y, z, d], or { \"file\": NAME } with a row of numbers for each".into(),
     };
     let default = match (param.default, param.kind) {
         (None, _) => "required".to_owned(),

@@ -2,9 +2,11 @@
 
 use super::Failure;
 use freikugel::model::{self, Model, Region};
-use freikugel::scene::{self, Diagnostic, Reading, Scene, Severity, report};
+use freikugel::scene::{self, Diagnostic, Folder, Reading, Scene, Severity, report};
 use std::io::{IsTerminal, Read};
 use std::path::Path;
+#[cfg(feature = "gpu")]
+use std::path::PathBuf;
 
 /// The largest scene file. A thousand objects take about a quarter of a megabyte.
 const MAX_BYTES: u64 = 64 << 20;
@@ -41,7 +43,7 @@ pub(super) enum Input {
 pub(super) fn read(path: &Path) -> Result<Input, Failure> {
     let (text, name) = (text(path)?, name(path));
     if !is_model(path) {
-        let scene = Box::new(parsed(&text, &name)?);
+        let scene = Box::new(parsed(&text, path)?);
         return Ok(if scene.is_plane() { Input::Figures(scene) } else { Input::Scene(scene) });
     }
     match model::read(&text) {
@@ -87,7 +89,7 @@ pub(super) fn scene_or_report(path: &Path) -> Result<Scene, String> {
             Err(fault) => (None, vec![fault]),
         }
     } else {
-        let Reading { scene, diagnostics } = scene::read(&text);
+        let Reading { scene, diagnostics, .. } = scene::read_with(&text, Folder::of(path));
         (scene, diagnostics)
     };
     scene.ok_or_else(|| report(&text, &name, &diagnostics, false))
@@ -103,11 +105,21 @@ pub(super) fn name(path: &Path) -> String {
     if path == Path::new("-") { "standard input".into() } else { path.display().to_string() }
 }
 
-/// The scene of a text, printing all diagnostics to standard error.
-pub(super) fn parsed(text: &str, name: &str) -> Result<Scene, Failure> {
-    let Reading { scene, diagnostics } = scene::read(text);
-    show(text, name, &diagnostics);
-    scene.ok_or_else(|| faulty(name, &diagnostics))
+/// The scene of a text that is, or stands for, that of the file `path`, printing all diagnostics to standard error.
+pub(super) fn parsed(text: &str, path: &Path) -> Result<Scene, Failure> {
+    let Reading { scene, diagnostics, .. } = scene::read_with(text, Folder::of(path));
+    let name = name(path);
+    show(text, &name, &diagnostics);
+    scene.ok_or_else(|| faulty(&name, &diagnostics))
+}
+
+/// The scene's file, and the files that it names, as far as they could be read.
+#[cfg(feature = "gpu")]
+pub(super) fn files(path: &Path) -> Vec<PathBuf> {
+    let folder = Folder::of(path);
+    let text = if is_model(path) { None } else { text_of(path).ok() };
+    let named = text.map(|text| scene::read_with(&text, folder.clone()).files).unwrap_or_default();
+    std::iter::once(path.to_owned()).chain(named.iter().map(|name| folder.path(name))).collect()
 }
 
 /// Says how many errors a file has.

@@ -6,8 +6,8 @@ use super::sheet::{Bitmap, Sheet, Tile};
 use super::{Failure, input};
 use freikugel::render::{Options, Tone, render};
 use freikugel::scene::edit::{EditError, Path as Way, with_value};
-use freikugel::scene::{Method, Scene, Severity, read};
-use std::path::PathBuf;
+use freikugel::scene::{Folder, Method, Scene, Severity, read_with};
+use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -142,7 +142,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let text = input::text(&arguments.scene)?;
     let name = input::name(&arguments.scene);
-    input::parsed(&text, &name)?;
+    input::parsed(&text, &arguments.scene)?;
     let columns = columns.expect("there is one axis at least");
     let one = [(String::new(), String::new())];
     let row_values = rows.map_or(&one[..], |rows| &rows.values);
@@ -150,7 +150,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for row in row_values {
         for column in &columns.values {
             let changes = rows.map(|rows| (&rows.path, row)).into_iter().chain([(&columns.path, column)]);
-            let mut scene = changed(&text, &name, changes)?;
+            let mut scene = changed(&text, &arguments.scene, changes)?;
             scene.tracer.method = arguments.tracer.unwrap_or(scene.tracer.method);
             scenes.push(scene);
         }
@@ -212,24 +212,24 @@ fn labelled(axis: &Axis, index: usize) -> String {
 /// The scene with some values changed; if it is none then, that is reported.
 fn changed<'a>(
     text: &str,
-    name: &str,
+    path: &Path,
     changes: impl Iterator<Item = (&'a Way, &'a (String, String))>,
 ) -> Result<Scene, Failure> {
-    let mut text = text.to_owned();
+    let (mut text, name) = (text.to_owned(), &input::name(path));
     let (mut said, mut added) = (Vec::new(), Vec::new());
-    for (path, (value, shown)) in changes {
-        let edited = with_value(&text, path, value).map_err(|error| match error {
-            EditError::Path(sentence) => Failure::Input(format!("can't vary {path}: {sentence}")),
+    for (way, (value, shown)) in changes {
+        let edited = with_value(&text, way, value).map_err(|error| match error {
+            EditError::Path(sentence) => Failure::Input(format!("can't vary {way}: {sentence}")),
             EditError::Text(diagnostics) => {
                 input::show(&text, name, &diagnostics);
                 Failure::Input(format!("{name} is no JSON"))
             }
         })?;
         text = edited.text;
-        said.push(format!("{path}={shown}"));
+        said.push(format!("{way}={shown}"));
         added.extend(edited.added.map(|sentence| format!("; {sentence}")));
     }
-    let reading = read(&text);
+    let reading = read_with(&text, Folder::of(path));
     reading.scene.ok_or_else(|| {
         let errors: Vec<_> = reading.diagnostics.into_iter().filter(|d| d.severity == Severity::Error).collect();
         let said = said.join(" and ");

@@ -59,7 +59,7 @@ mod window {
 
     pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let path = &arguments.scene;
-        let stamp = stamp(path);
+        let mut files = Files::of(path);
         let scene = input::scene(path)?;
         let mut options = Options::of(&scene);
         options.width = arguments.width.unwrap_or(options.width);
@@ -74,7 +74,6 @@ mod window {
             voxels: arguments.voxels.count,
             choice: graphics::choice(arguments.adapter.as_deref()),
         };
-        let mut files = Files { path, stamp };
         view(scene, &window, &mut files).map_err(|error| match error {
             ViewError::Window(_) | ViewError::Open(_) => Failure::Input(format!(
                 "{error}\nwithout a window, this makes a picture: freikugel render {}",
@@ -84,28 +83,36 @@ mod window {
         })
     }
 
-    /// The scene's file, and when it was changed last as far as known.
+    /// The scene's file, and it and all that it names with what is known of when they were changed last.
     struct Files<'p> {
         path: &'p Path,
-        stamp: Option<(SystemTime, u64)>,
+        stamps: Vec<(PathBuf, Option<Stamp>)>,
+    }
+
+    impl<'p> Files<'p> {
+        fn of(path: &'p Path) -> Self {
+            let stamps = input::files(path).into_iter().map(|path| (path.clone(), stamp(&path))).collect();
+            Self { path, stamps }
+        }
     }
 
     /// When a file was changed last, and its size.
-    fn stamp(path: &Path) -> Option<(SystemTime, u64)> {
+    type Stamp = (SystemTime, u64);
+
+    fn stamp(path: &Path) -> Option<Stamp> {
         let about = std::fs::metadata(path).ok()?;
         Some((about.modified().ok()?, about.len()))
     }
 
     impl Host for Files<'_> {
         fn load(&mut self) -> Result<Scene, String> {
-            self.stamp = stamp(self.path);
+            *self = Files::of(self.path);
             input::scene_or_report(self.path)
         }
 
         fn has_changed(&mut self) -> bool {
             // Editors that write anew remove the file for a moment; it is read when it is back.
-            let now = stamp(self.path);
-            now.is_some() && now != self.stamp
+            self.stamps.iter().any(|(path, known)| stamp(path).is_some_and(|now| Some(now) != *known))
         }
 
         fn save(&mut self, png: &[u8]) -> Result<String, String> {

@@ -1,5 +1,6 @@
 //! Parameters of shapes: how each [`ParamKind`] is written.
 
+use crate::files::{FileNotation, rows};
 use crate::notation::{Notation, direction_schema, index_of, named_direction, numbers_schema, tidy, tidy_degrees};
 use crate::reader::{Reader, span};
 use crate::schema::Definitions;
@@ -15,6 +16,9 @@ const NO_ENTRIES: &str = "must have an entry";
 impl Notation<Vec<f64>> for ParamKind {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
         let numbers = match (*self, value) {
+            (Self::Text | Self::Points2 | Self::Points3 | Self::HalfSpaces, Written::Object(_)) => {
+                in_file(reader, *self, value)?
+            }
             (Self::Number | Self::Length | Self::Positive | Self::Factor | Self::Count(..), _) => {
                 vec![reader.number(value)?]
             }
@@ -54,7 +58,7 @@ impl Notation<Vec<f64>> for ParamKind {
             (Self::Region, _) => region(reader, value)?,
             (Self::HalfSpaces, _) => entries(reader, value, "half-spaces, [x, y, z, d]", ["x", "y", "z", "d"])?,
             (Self::Contours, _) => contours(reader, value)?,
-            (Self::Text, Written::StringLit(text)) => text.value.chars().map(|c| f64::from(u32::from(c))).collect(),
+            (Self::Text, Written::StringLit(text)) => characters(&text.value),
             (Self::Text, _) => {
                 reader.mistyped(value, "a text", None);
                 return None;
@@ -113,7 +117,7 @@ impl Notation<Vec<f64>> for ParamKind {
         })
     }
 
-    fn schema(&self, _definitions: &mut Definitions) -> Json {
+    fn schema(&self, definitions: &mut Definitions) -> Json {
         let factor = || json!({ "type": "number", "not": { "const": 0 } });
         let length = || json!({ "type": "number", "exclusiveMinimum": 0 });
         let three = |item: Json| json!({ "type": "array", "items": item, "minItems": 3, "maxItems": 3 });
@@ -153,10 +157,11 @@ impl Notation<Vec<f64>> for ParamKind {
                     one("box", json!({ "anyOf": [length(), three(length())] })),
                 ] })
             }
-            Self::HalfSpaces => json!({ "type": "array", "items": numbers_schema(4), "minItems": 1 }),
-            Self::Text => json!({ "type": "string", "minLength": 1 }),
-            Self::Points3 => json!({ "type": "array", "items": numbers_schema(3), "minItems": 1 }),
-            Self::Points2 => json!({ "type": "array", "items": numbers_schema(2), "minItems": 1 }),
+            Self::HalfSpaces | Self::Points3 | Self::Points2 => {
+                let list = json!({ "type": "array", "items": numbers_schema(self.width()), "minItems": 1 });
+                json!({ "anyOf": [list, FileNotation.schema(definitions)] })
+            }
+            Self::Text => json!({ "anyOf": [{ "type": "string", "minLength": 1 }, FileNotation.schema(definitions)] }),
             Self::Contours => {
                 let corner = json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 3 });
                 let line = || json!({ "type": "array", "items": corner, "minItems": 2 });
@@ -189,6 +194,28 @@ fn choice(reader: &mut Reader, names: &'static [&'static str], value: &Written<'
 /// Whether all names of a choice are numbers, which may then stand without quotes.
 fn are_numbers(names: &[&str]) -> bool {
     names.iter().all(|name| name.parse::<f64>().is_ok())
+}
+
+/// The numbers of a list that stands in a file: a text as it is, points and planes as rows of numbers.
+fn in_file(reader: &mut Reader, kind: ParamKind, value: &Written<'_>) -> Option<Vec<f64>> {
+    let contents = FileNotation.read(reader, value)?;
+    let text = match String::from_utf8(contents) {
+        Ok(text) => text,
+        Err(_) => {
+            reader.error(span(value), format!("the file of {} is no text", reader.label()), None);
+            return None;
+        }
+    };
+    if kind == ParamKind::Text {
+        return Some(characters(&text));
+    }
+    let numbers = rows(&text, kind.width());
+    numbers.map_err(|fault| reader.error(span(value), format!("the file of {} {fault}", reader.label()), None)).ok()
+}
+
+/// A text by the numbers of its characters.
+fn characters(text: &str) -> Vec<f64> {
+    text.chars().map(|c| f64::from(u32::from(c))).collect()
 }
 
 /// A sphere or a box around the origin.
@@ -291,7 +318,7 @@ mod tests {
     use serde_json::json;
 
     fn read(kind: ParamKind, text: &str) -> Result<Vec<f64>, String> {
-        let mut reader = Reader::new();
+        let mut reader = Reader::new(crate::files::NoFiles);
         let value = parse(text, &mut reader.diagnostics).expect("JSON");
         kind.read(&mut reader, &value).ok_or_else(|| reader.diagnostics[0].message.clone())
     }
