@@ -68,12 +68,22 @@ pub fn analyse_together(fields: &[Field]) -> Vec<(Option<Analysis>, Vec<Diagnost
     let is_body = |(analysis, _): &(Option<Analysis>, _)| {
         analysis.as_ref().is_some_and(|analysis| analysis.contract.dimension == Dimension::Space)
     };
-    if analyses.iter().any(is_body) { fields.iter().map(analyse_body).collect() } else { analyses }
+    if !analyses.iter().any(is_body) {
+        return analyses;
+    }
+    fields.iter().zip(analyses).map(|(field, analysis)| as_body(field, analysis)).collect()
 }
 
 /// As [`analyse`], for what is to be a body by itself: a plane figure is an error.
 pub fn analyse_body(field: &Field) -> (Option<Analysis>, Vec<Diagnostic>) {
-    let (analysis, mut diagnostics) = analyse(field);
+    as_body(field, analyse(field))
+}
+
+/// What the analysis of a field comes to where only bodies may stand.
+fn as_body(
+    field: &Field,
+    (analysis, mut diagnostics): (Option<Analysis>, Vec<Diagnostic>),
+) -> (Option<Analysis>, Vec<Diagnostic>) {
     match analysis {
         Some(analysis) if analysis.contract.dimension == Dimension::Plane => {
             let node = field.node();
