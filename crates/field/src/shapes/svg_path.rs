@@ -14,8 +14,8 @@ pub struct SvgPath;
 /// The descriptor of [`svg_path`].
 pub static SVG_PATH: Shape = Shape::special::<SvgPath>();
 
-/// The figure of path data, such as `"M0 0 L4 0 Q4 3 0 3 Z"`: what the attribute `d` of a path in an SVG picture holds. In pictures y
-/// leads downwards; here it leads upwards. `with("rule", ...)` chooses how lines within others are filled.
+/// The figure of path data, such as `"M0 0 L4 0 Q4 3 0 3 Z"`: what the attribute `d` of a path in an SVG picture holds. In
+/// pictures y leads downwards; here it leads upwards. `with("rule", ...)` chooses how lines within others are filled.
 #[track_caller]
 pub fn svg_path(data: &str) -> Form<SvgPath> {
     let characters = data.chars().map(|c| Value::from(u32::from(c)));
@@ -97,8 +97,8 @@ fn lines(args: &[f64]) -> Result<Vec<f64>, String> {
     Ok(lines.finish())
 }
 
-/// Those of some closed lines on one side of which points are wound around, and on the other side not: what the rule `nonzero` makes
-/// the border of a figure, as long as lines don't cross.
+/// Those of some closed lines on one side of which points are wound around, and on the other side not: what the rule `nonzero`
+/// makes the border of a figure, as long as lines don't cross.
 fn nonzero(lines: &[f64]) -> Vec<f64> {
     let edges = edges(lines);
     let mut kept = Vec::new();
