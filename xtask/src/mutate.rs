@@ -15,7 +15,18 @@ const FOLDER: &str = "crates/field/src/shapes";
 
 /// Functions that hold formulas, or their constants.
 const FUNCTIONS: [&str; 12] = [
-    "distance", "map", "combine", "modify", "share", "depth", "farther", "value", "prepare", "constants", "general", "places",
+    "distance",
+    "map",
+    "combine",
+    "modify",
+    "share",
+    "depth",
+    "farther",
+    "value",
+    "prepare",
+    "constants",
+    "general",
+    "places",
 ];
 
 /// What is changed into what.
@@ -100,12 +111,17 @@ fn sites(folder: &Path) -> Result<Vec<Site>> {
         let text = std::fs::read_to_string(&file).map_err(|e| format!("can't read {}: {e}", file.display()))?;
         for (line, content) in formulas(&text) {
             let code = content.split("//").next().unwrap_or_default();
-            let found = CHANGES.iter().flat_map(|&change| {
-                code.match_indices(change.0).map(move |(column, _)| (column, change))
-            });
+            let found = CHANGES
+                .iter()
+                .flat_map(|&change| code.match_indices(change.0).map(move |(column, _)| (column, change)));
             // Texts and types are no formulas.
             let is_formula = !code.contains('"') && !code.contains("where ") && !code.contains("impl ");
-            sites.extend(found.filter(|_| is_formula).map(|(column, change)| Site { file: file.clone(), line, column, change }));
+            sites.extend(found.filter(|_| is_formula).map(|(column, change)| Site {
+                file: file.clone(),
+                line,
+                column,
+                change,
+            }));
         }
     }
     Ok(sites)

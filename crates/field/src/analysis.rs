@@ -68,12 +68,22 @@ pub fn analyse_together(fields: &[Field]) -> Vec<(Option<Analysis>, Vec<Diagnost
     let is_body = |(analysis, _): &(Option<Analysis>, _)| {
         analysis.as_ref().is_some_and(|analysis| analysis.contract.dimension == Dimension::Space)
     };
-    if analyses.iter().any(is_body) { fields.iter().map(analyse_body).collect() } else { analyses }
+    if !analyses.iter().any(is_body) {
+        return analyses;
+    }
+    fields.iter().zip(analyses).map(|(field, analysis)| as_body(field, analysis)).collect()
 }
 
 /// As [`analyse`], for what is to be a body by itself: a plane figure is an error.
 pub fn analyse_body(field: &Field) -> (Option<Analysis>, Vec<Diagnostic>) {
-    let (analysis, mut diagnostics) = analyse(field);
+    as_body(field, analyse(field))
+}
+
+/// What the analysis of a field comes to where only bodies may stand.
+fn as_body(
+    field: &Field,
+    (analysis, mut diagnostics): (Option<Analysis>, Vec<Diagnostic>),
+) -> (Option<Analysis>, Vec<Diagnostic>) {
     match analysis {
         Some(analysis) if analysis.contract.dimension == Dimension::Plane => {
             let node = field.node();
@@ -199,8 +209,7 @@ impl Walk {
                     );
                 }
                 let is_plane = child.dimension == Dimension::Plane;
-                // Whatever leads out of the plane shows with the second copy, or with the last.
-                if is_plane && ![1, count - 1].into_iter().all(|copy| keeps_plane(&table.map(&args, copy))) {
+                if is_plane && !(0..count).all(|copy| keeps_plane(&table.map(&args, copy))) {
                     return self.error(node, None, format!("`{name}` takes a plane figure out of its plane"));
                 }
                 let Kind::Combine(union) = &shapes::UNION.kind else { unreachable!("union combines") };

@@ -1,4 +1,7 @@
-//! Curves in space as chains of circular arcs, by biarcs as in the plane (see `arcs.rs`): each arc lies in a plane of its own.
+//! Curves as chains of circular arcs, each of which lies in a plane of its own.
+//!
+//! A curve is split until each piece is as near to a biarc, two arcs that go over into one another with the curve's directions at
+//! both ends, as is asked for (Bolton, "Biarc curves", 1975). Errors fall with the cube of the pieces' length, so that few arcs do.
 
 use crate::curve::Bezier;
 use glam::DVec3;
@@ -12,7 +15,7 @@ const PLACES: u32 = 7;
 /// Directions that differ by less, in the square, are the same.
 const PARALLEL: f64 = 1e-18;
 
-/// No single arc turns by more.
+/// No single arc turns by more, so that none is taken for the other way round.
 const MOST_TURN: f64 = std::f64::consts::FRAC_PI_2;
 
 /// How many constants an arc has; see [`Arc3::constants`].
@@ -42,8 +45,18 @@ impl Arc3 {
         (along, across.normalize(), libm::atan2(across.length(), self.direction.dot(along)))
     }
 
-    /// The middle of the chord, its direction, and that across it towards the arc; half its length; sine and cosine of half the angle
-    /// that the arc turns by; its radius, 0 for a straight edge.
+    /// Half of the angle that it turns by; 0 for a straight edge.
+    pub(crate) fn half_turn(&self) -> f64 {
+        self.frame().2
+    }
+
+    /// The direction across the chord on whose side of it the arc lies.
+    pub(crate) fn side_of_chord(&self) -> DVec3 {
+        self.frame().1
+    }
+
+    /// The middle of the chord, its direction, and that across it towards the arc; half its length; sine and cosine of half the
+    /// angle that the arc turns by; its radius, 0 for a straight edge.
     pub(crate) fn constants(&self) -> [f64; ROW] {
         let (along, across, half_turn) = self.frame();
         let (middle, half) = ((self.from + self.to) / 2.0, self.from.distance(self.to) / 2.0);
@@ -104,7 +117,7 @@ fn piece(curve: &Bezier<DVec3>, tolerance: f64, depth: u32, arcs: &mut Vec<Arc3>
             let point = curve.at(f64::from(place) / f64::from(PLACES + 1));
             found.iter().map(|arc| arc.distance(point)).fold(f64::INFINITY, f64::min) <= tolerance
         });
-        if is_near && found.iter().all(|arc| 2.0 * arc.frame().2 <= MOST_TURN * 1.01) {
+        if is_near && found.iter().all(|arc| 2.0 * arc.half_turn() <= MOST_TURN * 1.01) {
             return arcs.extend(found.into_iter().filter(|arc| arc.from != arc.to));
         }
     }
@@ -151,6 +164,15 @@ mod tests {
             (vec![p(0.0, 0.0, 0.0), p(0.0, 0.0, 0.0), p(1.0, 0.0, 1.0), p(2.0, 1.0, 1.0)], 80),
             (vec![p(0.0, 0.0, 0.0), p(2.0, 0.0, 0.0), p(-1.0, 0.0, 0.0), p(1.0, 0.0, 0.0)], 80),
             (vec![p(1.0, 1.0, 1.0); 3], 0),
+            // In the plane: a bow, an s, a loop, a cusp, a straight edge, no handles, one point, and to and fro.
+            (vec![p(0.0, 0.0, 0.0), p(0.3, 0.6, 0.0), p(0.9, 0.5, 0.0), p(1.0, 0.0, 0.0)], 24),
+            (vec![p(0.0, 0.0, 0.0), p(1.0, 0.2, 0.0), p(-0.2, 0.9, 0.0), p(1.0, 1.0, 0.0)], 40),
+            (vec![p(0.0, 0.0, 0.0), p(1.5, 1.0, 0.0), p(-0.5, 1.0, 0.0), p(1.0, 0.0, 0.0)], 48),
+            (vec![p(0.0, 0.0, 0.0), p(1.0, 1.0, 0.0), p(0.0, 1.0, 0.0), p(1.0, 0.0, 0.0)], 64),
+            (vec![p(0.0, 0.0, 0.0), p(0.2, 0.2, 0.0), p(0.7, 0.7, 0.0), p(1.0, 1.0, 0.0)], 2),
+            (vec![p(0.0, 0.0, 0.0), p(0.0, 0.0, 0.0), p(1.0, 0.5, 0.0), p(1.0, 0.5, 0.0)], 2),
+            (vec![p(0.2, 0.3, 0.0); 4], 0),
+            (vec![p(0.0, 0.0, 0.0), p(2.0, 0.0, 0.0), p(-1.0, 0.0, 0.0), p(1.0, 0.0, 0.0)], 64),
         ] {
             let curve = Bezier::new(points.clone());
             let arcs = of_curve(&curve, TOLERANCE);

@@ -1,7 +1,7 @@
 //! Polynomial curves by control points: Bézier curves and B-splines, also rational ones.
 //!
-//! Points are anything that can be added and multiplied with numbers: [`glam::DVec2`], [`glam::DVec3`], or [`glam::DVec4`] for rational
-//! curves, whose points are `(w x, w y, w z, w)`.
+//! Points are anything that can be added and multiplied with numbers: [`glam::DVec2`], [`glam::DVec3`], or [`glam::DVec4`] for
+//! rational curves, whose points are `(w x, w y, w z, w)`.
 //!
 //! ```
 //! use freikugel_field::curve::{BSpline, Bezier};

@@ -21,8 +21,8 @@ pub(crate) fn lines(text: &str) -> Result<Vec<f64>, String> {
         let place = document.text_pos_at(element.range().start);
         return Err(format!("has a text (line {}); a drawing program makes paths of texts", place.row));
     }
-    let tree = Tree::from_xmltree(&document, &Options::default())
-        .map_err(|error| format!("is no SVG picture: {error}"))?;
+    let tree =
+        Tree::from_xmltree(&document, &Options::default()).map_err(|error| format!("is no SVG picture: {error}"))?;
     let drawn = tree.root().abs_stroke_bounding_box();
     let tolerance = f64::from(drawn.width().max(drawn.height())) * TOLERANCE;
     group(tree.root(), tolerance)
@@ -175,7 +175,10 @@ mod tests {
         let picture = |inner: &str| lines(&format!("<svg xmlns=\"http://www.w3.org/2000/svg\">\n{inner}</svg>"));
         for (inner, fault) in [
             ("<text>a</text>", "has a text (line 2)"),
-            (r#"<filter id="f"><feGaussianBlur stdDeviation="1"/></filter><rect filter="url(#f)" width="1" height="1"/>"#, "a filter"),
+            (
+                r#"<filter id="f"><feGaussianBlur stdDeviation="1"/></filter><rect filter="url(#f)" width="1" height="1"/>"#,
+                "a filter",
+            ),
             ("<rect", "is no SVG picture"),
         ] {
             let error = picture(inner).expect_err(inner);

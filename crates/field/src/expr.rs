@@ -1,9 +1,8 @@
 //! Expressions: the number type that records a formula instead of computing it.
 //!
-//! Running a formula over [`Expr`] leaves its operations in a [`Graph`], in the order of evaluation, equal ones only
-//! once. The graph is turned into shader text (by the crate of shaders) or evaluated ([`Graph::evaluate`]), which the tests compare with
-//! the direct computation. A loop ([`Scalar::iterate`]) becomes one [`Loop`] whose body are the terms that depend on
-//! its state.
+//! Running a formula over [`Expr`] leaves its operations in a [`Graph`], in the order of evaluation, equal ones only once. The
+//! graph is turned into shader text (by the crate of shaders) or evaluated ([`Graph::evaluate`]), which the tests compare with
+//! the direct computation. A loop ([`Scalar::iterate`]) becomes one [`Loop`] whose body are the terms that depend on its state.
 
 use crate::scalar::{Constants, Scalar};
 use std::cell::{Cell, RefCell};

@@ -6,8 +6,8 @@ use crate::shapes::outline::{Edge, closed, edges};
 use glam::DVec2;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
-use i_overlay::float::single::SingleFloatOverlay;
 use i_overlay::float::simplify::SimplifyShape;
+use i_overlay::float::single::SingleFloatOverlay;
 use std::ops::Range;
 
 /// What is inside where lines lie within others.
@@ -150,9 +150,10 @@ fn polygons(lines: &[f64], edges: &[Edge], tolerance: f64) -> Vec<Vec<DVec2>> {
             let step = 2.0 * libm::acos(1.0 - (tolerance / radius).min(0.5));
             let count = (edge.turn.abs() / step).ceil().max(1.0);
             let arm = edge.from - centre;
-            polygon.extend((1..count as u32).map(|number| {
-                centre + DVec2::from_angle(edge.turn * f64::from(number) / count).rotate(arm)
-            }));
+            polygon.extend(
+                (1..count as u32)
+                    .map(|number| centre + DVec2::from_angle(edge.turn * f64::from(number) / count).rotate(arm)),
+            );
         }
         if corner[3] != 0.0 {
             polygons.push(std::mem::take(&mut polygon));
@@ -266,9 +267,8 @@ mod tests {
     /// The area within lines, by Green's theorem.
     fn area(lines: &[f64]) -> f64 {
         let own = |edge: Edge| {
-            let segment = edge.circle().map_or(0.0, |(_, radius)| {
-                radius * radius / 2.0 * (edge.turn - libm::sin(edge.turn))
-            });
+            let segment =
+                edge.circle().map_or(0.0, |(_, radius)| radius * radius / 2.0 * (edge.turn - libm::sin(edge.turn)));
             edge.from.perp_dot(edge.to) / 2.0 + segment
         };
         edges(lines).into_iter().map(own).sum()

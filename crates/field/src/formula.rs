@@ -133,6 +133,25 @@ impl Unary {
             Self::Floor => a.floor(),
         }
     }
+
+    /// Its name, by which graphs call it, and formulas where they have no sign for it.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Neg => "neg",
+            Self::Abs => "abs",
+            Self::Square => "square",
+            Self::Sqrt => "sqrt",
+            Self::Sin => "sin",
+            Self::Cos => "cos",
+            Self::Tan => "tan",
+            Self::Asin => "asin",
+            Self::Acos => "acos",
+            Self::Atan => "atan",
+            Self::Exp => "exp",
+            Self::Ln => "ln",
+            Self::Floor => "floor",
+        }
+    }
 }
 
 impl Binary {

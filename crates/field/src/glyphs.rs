@@ -6,8 +6,8 @@
 use crate::arcs::Lines;
 use crate::fill::{Rule, filled};
 use glam::DVec2;
-use rustybuzz::ttf_parser::OutlineBuilder;
 use rustybuzz::ttf_parser::GlyphId;
+use rustybuzz::ttf_parser::OutlineBuilder;
 use rustybuzz::{Face, UnicodeBuffer};
 
 /// The font that comes along: a part of Noto Sans (SIL Open Font License 1.1, see `assets/OFL.txt`): Latin, Greek and Cyrillic letters.

@@ -138,8 +138,8 @@ pub trait Scalar:
         self
     }
 
-    /// An enclosure of `f(a, b)` from `self`, that of `f` for the [`core`](Scalar::core) of both, for an `f` that changes by no more than the
-    /// larger change of its two arguments.
+    /// An enclosure of `f(a, b)` from `self`, that of `f` for the [`core`](Scalar::core) of both, for an `f` that changes by no
+    /// more than the larger change of its two arguments.
     #[inline(always)]
     fn around_core(self, _a: Self, _b: Self) -> Self {
         self

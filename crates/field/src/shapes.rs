@@ -14,6 +14,7 @@ mod blend;
 pub mod box_frame;
 pub mod capped_torus;
 pub mod capsule;
+mod carve;
 pub mod chamfer;
 pub mod chamfered_box;
 pub mod chamfered_rectangle;

@@ -66,8 +66,8 @@ macro_rules! dispatch {
     }};
 }
 
-/// As it is outside of tests, but for the lowest instruction set alone. The tests inside of this crate run no kernels worth the name,
-/// and kernels for all instruction sets take minutes to build; those under `tests/` run what everyone runs.
+/// As it is outside of tests, but for the lowest instruction set alone. The tests inside of this crate run no kernels worth the
+/// name, and kernels for all instruction sets take minutes to build; those under `tests/` run what everyone runs.
 #[cfg(all(target_arch = "x86_64", test))]
 macro_rules! dispatch {
     ($level:expr, $token:ident => $body:expr) => {{

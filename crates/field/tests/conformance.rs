@@ -245,7 +245,7 @@ fn programs_agree_with_set_logic_on_random_trees() {
         let program = program(&field);
         for p in points(&mut Random::new(seed + 500), 40) {
             let value = program.value(p);
-            if let Some(inside) = common::contains(&field, p)
+            if let Some(inside) = common::inside::contains(&field, p)
                 && value.abs() > 1e-5
             {
                 assert_eq!(inside, value < 0.0, "seed {seed} at {p}: {value} in {}", common::notation(&field));

@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{Random, contains, every_shape, notation, tree};
+use common::inside::contains;
+use common::{Random, every_shape, notation, tree};
 use freikugel_field::{Extent, Field, Metric, Program, Structure, analyse, extent};
 use glam::DVec3;
 

@@ -157,7 +157,9 @@ fn pictures_are_as_large_as_they_are_asked_to_be() {
             assert!(is_near, "{name} at {p}: {found}, not {expected}");
         }
     }
-    for (inner, message) in [("", "draws nothing"), ("<text>a</text>", "`picture` of `svg` has a text"), ("<g", "is no SVG")] {
+    for (inner, message) in
+        [("", "draws nothing"), ("<text>a</text>", "`picture` of `svg` has a text"), ("<g", "is no SVG")]
+    {
         let (analysis, diagnostics) = analyse(&picture(inner).into());
         assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{inner}: {diagnostics:?}");
     }

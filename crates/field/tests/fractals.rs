@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{Random, julia_contains, mandelbulb_contains};
+use common::Random;
+use common::inside::{julia_contains, mandelbulb_contains};
 use freikugel_field::shapes::*;
 use freikugel_field::{Evaluator, Extent, Field, Points, Program, Structure, analyse, extent, simd};
 use glam::DVec3;

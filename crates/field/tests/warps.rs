@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{Random, contains};
+use common::Random;
+use common::inside::contains;
 use freikugel_field::shapes::*;
 use freikugel_field::{
     Evaluator, Extent, Field, Formula, Interval, MaterialId, Points, Program, Severity, Shares, Structure, analyse,

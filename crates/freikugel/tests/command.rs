@@ -274,6 +274,24 @@ fn every_example_of_a_shape_is_a_sound_scene() {
 }
 
 #[test]
+fn shapes_may_stand_alone_as_a_list_where_the_help_says_so() {
+    let folder = Folder::new();
+    let mut counts = [0, 0];
+    for shape in freikugel::field::shapes::ALL.iter().filter(|shape| shape.arity() == freikugel::field::Arity::Many) {
+        let name = shape.about.name;
+        let says_so = stdout(&folder.run(&["help", "shapes", name])).contains("they may stand alone as a list");
+        let ball = r#"{ "sphere": { "radius": 1 } }"#;
+        let scene = format!(r#"{{ "objects": [ {{ "shape": {{ "{name}": [ {ball}, {ball} ] }} }} ] }}"#);
+        folder.write("alone.json", scene);
+        assert_eq!(code(&folder.run(&["check", "alone.json"])) == 0, says_so, "{name}");
+        counts[usize::from(says_so)] += 1;
+    }
+    assert!(counts.into_iter().all(|count| count > 2), "{counts:?}");
+    let paint = stdout(&folder.run(&["help", "shapes", "paint"]));
+    assert!(paint.contains("the name of a material; required"), "{paint}");
+}
+
+#[test]
 fn every_scene_that_comes_along_is_sound_and_shows_something() {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let folder = Folder::new();

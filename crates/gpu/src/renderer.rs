@@ -49,9 +49,9 @@ impl GpuRenderer {
         Self::of(gpu, scene, None)
     }
 
-    /// Samples a scene and compiles a shader that draws samples. All but planes is sampled, with `count` voxels along the longest side
-    /// of its box: edges are rounded by about one of them, and what is thinner than one may have holes; how long a picture takes
-    /// does not depend on what the scene is made of.
+    /// Samples a scene and compiles a shader that draws samples. All but planes is sampled, with `count` voxels along the longest
+    /// side of its box: edges are rounded by about one of them, and what is thinner than one may have holes; how long a picture
+    /// takes does not depend on what the scene is made of.
     ///
     /// # Errors
     /// As [`GpuRenderer::new`]; or if the scene can't be sampled, or memory does not suffice.

@@ -39,8 +39,8 @@ impl Bricks {
         (slot != EMPTY).then(|| self.labels[place(slot, sample.as_uvec3())])
     }
 
-    /// From outside of the box: a surface in it is seen from the nearest point of the box at an obtuse angle, so that the squares of
-    /// both distances add up to no more than that of the whole.
+    /// From outside of the box: a surface in it is seen from the nearest point of the box at an obtuse angle, so that the squares
+    /// of both distances add up to no more than that of the whole.
     fn seen_from(&self, p: Vec3, value: impl Fn(Vec3) -> f32) -> f32 {
         let inside = p.clamp(self.lattice.min(), self.lattice.max());
         let (value, away) = (value(inside), p.distance(inside));

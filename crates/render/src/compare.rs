@@ -93,8 +93,8 @@ impl Comparison {
     }
 }
 
-/// Traces one ray through each pixel of the frame or its crop with each method, `runs` times each, and compares what they meet with what the
-/// guaranteed tracer does.
+/// Traces one ray through each pixel of the frame or its crop with each method, `runs` times each, and compares what they meet
+/// with what the guaranteed tracer does.
 ///
 /// # Errors
 /// If the scene or the options are faulty even for the guaranteed tracer, or the work was cancelled.

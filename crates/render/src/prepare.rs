@@ -233,7 +233,8 @@ impl<'s> Renderer<'s> {
 }
 
 impl Renderer<'_> {
-    /// Where the cells of a picture lie that fill `region`, or all that can be seen: at the same place for all pictures, if that can be.
+    /// Where the cells of a picture lie that fill `region`, or all that can be seen: at the same place for all pictures, if that
+    /// can be.
     fn site(&self, camera: &Camera, region: Option<Aabb>) -> Site {
         // The origins of pictures lie in the extent, if there is one.
         let (origin, reach) = match self.extent {

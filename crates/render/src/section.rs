@@ -113,7 +113,7 @@ impl Section {
     ) -> Result<Rendered, RenderError> {
         let start = Instant::now();
         let region = options.region()?;
-        let fine = options.samples.isqrt() + u32::from(!is_square(options.samples));
+        let fine = squares_along(options.samples);
         let grid = Grid::new(self, program, [options.width * fine, options.height * fine]);
         let mut inside = filled(region, 0_u32)?;
         let threads = Threads { options, progress };
@@ -138,8 +138,10 @@ impl Section {
     }
 }
 
-fn is_square(number: u32) -> bool {
-    number.isqrt().pow(2) == number
+/// Into how many squares a pixel is divided along each side, so that there are as many as samples, rounded up to a square number.
+pub(crate) fn squares_along(samples: u32) -> u32 {
+    let side = samples.isqrt();
+    side + u32::from(side * side < samples)
 }
 
 /// Calls `visit` with the column, row and index of each place in a rectangle.

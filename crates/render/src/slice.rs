@@ -5,7 +5,7 @@ use crate::image::Image;
 use crate::isolines::{Isoline, isolines};
 use crate::options::Options;
 use crate::run::{Progress, RenderError, Rendered};
-use crate::section::Section;
+use crate::section::{Section, squares_along};
 use crate::stats::Stats;
 use freikugel_field::{Evaluator, Points, Program};
 use glam::DVec3;
@@ -21,8 +21,8 @@ pub enum Show {
     /// The length of the gradient, which is 1 where values are distances: white; blue where they grow too slowly, and red where too
     /// fast; the colours are full at half and at twice the length.
     Slope,
-    /// How many steps of the field's value lead down its gradient to the surface: 1 where values are distances. From dark to light, up
-    /// to [`MOST_STEPS`].
+    /// How many steps of the field's value lead down its gradient to the surface: 1 where values are distances. From dark to
+    /// light, up to [`MOST_STEPS`].
     Steps,
 }
 
@@ -76,10 +76,11 @@ impl Slice {
         progress: &dyn Progress,
     ) -> Result<Rendered, RenderError> {
         let start = Instant::now();
-        let fine = (1..).find(|side: &u32| side * side >= options.samples).unwrap_or(1);
+        options.region()?;
+        let fine = squares_along(options.samples);
         let grid =
             Options { width: options.width * fine, height: options.height * fine, crop: None, ..options.clone() };
-        let values = self.section.values(program, &grid, &())?;
+        let values = self.section.values(program, &grid, progress)?;
         let (colors, evaluations) = match self.show {
             Show::Distance => (None, 0),
             Show::Slope | Show::Steps => {
@@ -104,8 +105,8 @@ impl Slice {
         Ok(Rendered { image: Image::new(options.width, options.height, pixels), stats })
     }
 
-    /// The lines of the surface and of the multiples of the spacing, with their values, on a grid of the options' size; points are in
-    /// pixels of such a picture.
+    /// The lines of the surface and of the multiples of the spacing, with their values, on a grid of the options' size; points
+    /// are in pixels of such a picture.
     ///
     /// # Errors
     /// If the options can't be followed, or it was given up.
@@ -266,9 +267,7 @@ fn mix(a: [f32; 3], b: [f32; 3], share: f32) -> [f32; 3] {
 }
 
 fn slope_color(slope: f32) -> [f32; 3] {
-    // Differences below a thousandth are the rounding of single precision.
-    let off = slope.log2();
-    match off {
+    match slope.log2() {
         off if off.is_nan() => NOTHING,
         off if off < 0.0 => mix(PAPER, INSIDE, (-off).min(1.0)),
         off => mix(PAPER, TOO_FAST, off.min(1.0)),

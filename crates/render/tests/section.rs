@@ -2,7 +2,7 @@
 
 use freikugel_field::shapes::*;
 use freikugel_field::{Evaluator, Field, Form, Formula, Points, Program, Structure, shapes};
-use freikugel_render::{Options, Rect, RenderError, Section};
+use freikugel_render::{Options, OptionsError, Rect, RenderError, Section, Show, Slice};
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -132,4 +132,21 @@ fn a_crop_is_a_cut_of_the_whole_and_samples_average() {
     let stop = std::sync::atomic::AtomicBool::new(true);
     assert!(matches!(section.mask(&program, &whole, &stop), Err(RenderError::Cancelled)));
     assert!(matches!(section.mask(&program, &Options { width: 0, ..whole }, &()), Err(RenderError::Options(_))));
+}
+
+#[test]
+fn slices_hear_who_gives_up_and_name_the_options_that_were_asked_for() {
+    let program = Structure::compile(&[sphere(0.7).into()]).expect("a sphere").program(DVec3::ZERO);
+    let section = Section::from_above(DVec3::ZERO, 2.0, 2.0);
+    let options = Options { width: 40, height: 30, samples: 3, threads: Some(1), ..Options::default() };
+    for show in [Show::Distance, Show::Slope, Show::Steps] {
+        let slice = Slice { section, show, spacing: 0.1 };
+        let stop = std::sync::atomic::AtomicBool::new(true);
+        assert!(matches!(slice.picture(&program, &options, &stop), Err(RenderError::Cancelled)), "{show:?}");
+        let image = slice.picture(&program, &options, &()).expect("nobody cancels").image;
+        assert_eq!((image.width(), image.height()), (40, 30));
+        let none = Options { samples: 0, ..options.clone() };
+        let fault = slice.picture(&program, &none, &()).err();
+        assert!(matches!(fault, Some(RenderError::Options(OptionsError::Samples(0)))), "{show:?}: {fault:?}");
+    }
 }

@@ -83,12 +83,12 @@ fn what_is_wrong_with_a_file_is_said_where_it_is_named() {
     let tube = |points: &str| format!(r#"{{ "tube": {{ "radius": 0.1, "points": {points} }} }}"#);
     let text = |font: &str| format!(r#"{{ "text": {{ "size": 1, "text": "a中", "font": {font} }} }}"#);
     for (shape, message, place) in [
-        (tube(r#"{ "file": "none.csv" }"#), "can't read \"none.csv\": there is none", r#""none.csv""#),
+        (tube(r#"{ "file": "none.csv" }"#), "can't read `none.csv`: there is none", r#""none.csv""#),
         (tube(r#"{ "file": "short.csv" }"#), "has no 3 numbers on line 2", r#"{ "file": "short.csv" }"#),
         (tube(r#"{ "file": "empty.csv" }"#), "must have an entry", r#"{ "file": "empty.csv" }"#),
         (tube(r#"{ "file": "bytes.bin" }"#), "is no text", r#"{ "file": "bytes.bin" }"#),
         (tube(r#"{ "file": 7 }"#), "`file` must be a text, not a number", "7"),
-        (tube(r#"{ "name": "line.csv" }"#), "has no key \"name\"", r#""name""#),
+        (tube(r#"{ "name": "line.csv" }"#), "has no key `name`", r#""name""#),
         (text(r#"{ "file": "words.txt" }"#), "is no TrueType or OpenType font", r#"{ "file": "words.txt" }"#),
         (text(r#"{ "file": "font.ttf" }"#), "has no letter '中'", r#"{ "file": "font.ttf" }"#),
         (text(r#""font.ttf""#), "`font` must be a file, not a text", r#""font.ttf""#),

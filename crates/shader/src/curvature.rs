@@ -1,4 +1,5 @@
-//! How fast the slope of a formula can fall along a line: with that, a value and a slope at a point bound how far the zero ahead is.
+//! How fast the slope of a formula can fall along a line: with that, a value and a slope at a point bound how far the zero ahead
+//! is.
 //!
 //! Along a line with unit direction d, f(t) >= f + (g . d) t - c t^2 / 2, where no second derivative in the region is less than
 //! -c (Taylor's theorem). Second derivatives are enclosed by dual numbers over intervals in the cells of a grid, and their least

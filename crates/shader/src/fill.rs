@@ -15,7 +15,8 @@ use freikugel_render::Plan;
 use freikugel_scene::{Material, Model, Pattern, Scene};
 use glam::{DVec3, Vec3};
 
-/// What boxes of formulas, and those that rays enter, are widened by, relative to their size, so that surfaces on their border lie inside.
+/// What boxes of formulas, and those that rays enter, are widened by, relative to their size, so that surfaces on their border
+/// lie inside.
 const BOX_MARGIN: f64 = 1e-3;
 
 /// Rounding errors of positions on rays, relative to the distance from the origin: eight of single precision.

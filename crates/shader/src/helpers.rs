@@ -21,6 +21,8 @@ pub(crate) struct Helpers {
     pub(crate) names: Names,
     pub(crate) functions: Vec<Function>,
     known: HashMap<String, Known>,
+    /// What [`rows`] found for shapes of these names with so many constants.
+    rows: HashMap<(&'static str, usize), Option<usize>>,
 }
 
 /// A function that is there: its name, and which constants it takes.
@@ -100,7 +102,7 @@ enum Passing {
 
 impl Helpers {
     pub(crate) fn new(names: Names) -> Self {
-        Self { names, functions: Vec::new(), known: HashMap::new() }
+        Self { names, functions: Vec::new(), known: HashMap::new(), rows: HashMap::new() }
     }
 
     /// The function that was defined under a key.
@@ -377,11 +379,12 @@ impl Helpers {
     }
 
     /// How a shape's constants are passed, and what tells its functions apart: lists have any number of constants.
-    fn passing(&self, shape: &'static Shape, count: usize, suffix: &str) -> (Passing, String) {
+    fn passing(&mut self, shape: &'static Shape, count: usize, suffix: &str) -> (Passing, String) {
         let name = shape.about.name;
         let names = constant_names(shape, count);
         let key = if suffix.is_empty() { name.to_owned() } else { format!("{name}_{suffix}") };
-        match (rows(shape, count), count) {
+        let rows = *self.rows.entry((name, count)).or_insert_with(|| rows(shape, count));
+        match (rows, count) {
             (Some(rows), _) => (Passing::Rows(rows), key),
             (None, 0..=MOST_ARGUMENTS) => (Passing::Each(names), key),
             (None, _) => (Passing::First, format!("{key}_{count}")),

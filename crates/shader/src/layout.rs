@@ -1,7 +1,7 @@
 //! Where the numbers of a scene are in the table of parameters.
 //!
-//! First come numbers that every scene has, at places that are the same for all; then the boxes of parts, the hierarchy of many, planes,
-//! the materials of regions, and the constants of the parts' functions; last the lights, since their number may change.
+//! First come numbers that every scene has, at places that are the same for all; then the boxes of parts, the hierarchy of many,
+//! planes, the materials of regions, and the constants of the parts' functions; last the lights, since their number may change.
 
 use crate::hierarchy::{self, NODE_SIZE};
 use crate::tree::{Expr, Item, Type};

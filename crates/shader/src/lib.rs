@@ -47,9 +47,9 @@
 //! Objects, and what unions at the top of objects hold, are *parts*. Each part is compiled into steps, and each step becomes one
 //! line; functions of shapes are written once, recorded from the same generic formulas that the processor runs, with their
 //! gradients by the rules of dual numbers. Parts far away are passed over by their boxes; many parts are found through a
-//! hierarchy of boxes in the table of numbers, and share one function for each form, so that the text stays short. Tracing, lighting and materials are a
-//! library, written in a part of WGSL, read into the same [form](tree) as the formulas, and printed from there in each
-//! language. What a formula has no scale for is marched by a bound of its slope, which is a parameter.
+//! hierarchy of boxes in the table of numbers, and share one function for each form, so that the text stays short. Tracing,
+//! lighting and materials are a library, written in a part of WGSL, read into the same [form](tree) as the formulas, and printed
+//! from there in each language. What a formula has no scale for is marched by a bound of its slope, which is a parameter.
 //!
 //! [`Shader::of_voxels`] samples all that is marched instead: its text does not depend on shapes at all, and a ray takes as long
 //! whatever the shapes cost.

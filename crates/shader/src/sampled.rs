@@ -86,8 +86,8 @@ impl Sampled {
 }
 
 /// Samples a scene without its planes, with a number of voxels along the longest side of its box. Coordinates are relative to
-/// [`Plan::origin`], values are multiplied with [`Plan::scale`], so that they are safe steps; labels tell objects and the materials in
-/// them apart.
+/// [`Plan::origin`], values are multiplied with [`Plan::scale`], so that they are safe steps; labels tell objects and the
+/// materials in them apart.
 ///
 /// # Errors
 /// If the scene can't be sampled.

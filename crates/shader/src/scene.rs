@@ -1,5 +1,5 @@
-//! From a scene to the functions that only its own shader has: `nearest`, `free_ahead`, `unscaled`, `whole`, `part_gradient`, `surface_at`, and one for
-//! each part that is more than a call.
+//! From a scene to the functions that only its own shader has: `nearest`, `free_ahead`, `unscaled`, `whole`, `part_gradient`,
+//! `surface_at`, and one for each part that is more than a call.
 
 use crate::helpers::{Base, Helpers, Want};
 use crate::layout::{Layout, PART_SIZE, REGION_SIZE};

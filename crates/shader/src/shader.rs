@@ -154,8 +154,8 @@ impl Shader {
         Ok(Self::joined(Body::Parts { parts, kinds }, planes, layout, &plan, library, own))
     }
 
-    /// Makes a shader for a scene of which all but planes is sampled, with a number of voxels along the longest side of its box; and
-    /// for all others with as many planes and materials. Their text is the same for all shapes.
+    /// Makes a shader for a scene of which all but planes is sampled, with a number of voxels along the longest side of its box;
+    /// and for all others with as many planes and materials. Their text is the same for all shapes.
     ///
     /// # Errors
     /// If the scene can't be rendered, or not be sampled: if it has no bounds, its values are no distances, or it has no inside.
@@ -268,9 +268,9 @@ impl Parameters {
         &self.numbers
     }
 
-    /// The table of samples that a shader made by [`Shader::of_voxels`] reads, otherwise nothing: for each brick of 8 x 8 x 8 cells the
-    /// value in its middle and a number, and for those with a number of at least 0 the values at the corners of their cells,
-    /// each with that of a material.
+    /// The table of samples that a shader made by [`Shader::of_voxels`] reads, otherwise nothing: for each brick of 8 x 8 x 8
+    /// cells the value in its middle and a number, and for those with a number of at least 0 the values at the corners of their
+    /// cells, each with that of a material.
     pub fn voxels(&self) -> &[[f32; 2]] {
         &self.voxels
     }

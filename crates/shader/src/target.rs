@@ -60,9 +60,9 @@ pub const VOXELS_WIDTH: usize = 2048;
 
 impl Shader {
     /// The text for a target. Only that for Shadertoy depends on the numbers; its host has no place for them outside the text.
-    /// Those for WGSL and MSL keep up to [`MOST_UNIFORM_BYTES`] as uniforms, more in a storage buffer.
-    /// That for WebGL 2 depends on how many there are: up to 220 vectors of four are uniforms, up to 12 times [`glsl::BLOCK_VECTORS`] come in
-    /// blocks of uniforms, more in a texture.
+    /// Those for WGSL and MSL keep up to [`MOST_UNIFORM_BYTES`] as uniforms, more in a storage buffer. That for WebGL 2 depends
+    /// on how many there are: up to 220 vectors of four are uniforms, up to 12 times [`glsl::BLOCK_VECTORS`] come in blocks of
+    /// uniforms, more in a texture.
     ///
     /// # Errors
     /// If the host has no place for samples, or the text does not pass validation, which would be a mistake of this crate.

@@ -181,7 +181,7 @@ impl Printer<'_> {
             Term::Unary(Unary::Neg, a) => vec![Text("-"), term(a, Level::Product)],
             Term::Unary(Unary::Square, a) => vec![term(a, Level::Atom), Text("^2")],
             Term::Power(a, n) => vec![term(a, Level::Atom), Text("^"), Integer(n)],
-            Term::Unary(op, a) => vec![Text(unary_name(op)), Text("("), term(a, Level::Sum), Text(")")],
+            Term::Unary(op, a) => vec![Text(op.name()), Text("("), term(a, Level::Sum), Text(")")],
             Term::Binary(Binary::Add, a, b) => match self.number_of(b) {
                 Some(c @ ..0.0) => vec![term(a, Level::Sum), Text(" - "), Number(-c)],
                 _ => vec![term(a, Level::Sum), Text(" + "), term(b, Level::Product)],
@@ -226,23 +226,5 @@ impl Printer<'_> {
             0.0 | 1e-4..1e15 => write!(self.text, "{number}"),
             _ => write!(self.text, "{number:e}"),
         };
-    }
-}
-
-fn unary_name(op: Unary) -> &'static str {
-    match op {
-        Unary::Neg => "-",
-        Unary::Abs => "abs",
-        Unary::Square => "square",
-        Unary::Sqrt => "sqrt",
-        Unary::Sin => "sin",
-        Unary::Cos => "cos",
-        Unary::Tan => "tan",
-        Unary::Asin => "asin",
-        Unary::Acos => "acos",
-        Unary::Atan => "atan",
-        Unary::Exp => "exp",
-        Unary::Ln => "ln",
-        Unary::Floor => "floor",
     }
 }

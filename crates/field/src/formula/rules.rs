@@ -1,9 +1,9 @@
 //! Rules of simplification.
 //!
-//! A rule looks at an operation and its operands' terms and gives something cheaper or, in intervals, tighter instead. The
-//! rules keep three promises. They change values by no more than rounding any of their parts does. They leave the set alone where there is a value,
-//! isolated points excepted: `sqrt(x) - sqrt(x)` is not 0. And a term that no rule applied to is made again by the same
-//! call, so that a printed formula is read back as it was.
+//! A rule looks at an operation and its operands' terms and gives something cheaper or, in intervals, tighter instead. The rules
+//! keep three promises. They change values by no more than rounding any of their parts does. They leave the set alone where there
+//! is a value, isolated points excepted: `sqrt(x) - sqrt(x)` is not 0. And a term that no rule applied to is made again by the
+//! same call, so that a printed formula is read back as it was.
 
 use super::builder::Builder;
 use super::{Binary, Term, TermId, Unary};

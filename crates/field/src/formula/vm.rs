@@ -163,7 +163,7 @@ impl Formula {
             let line = match term {
                 Term::Input(axis) => writer.line(INPUTS[axis], &[]),
                 Term::Literal(number) => writer.constant(number),
-                Term::Unary(op, a) => writer.line(unary_name(op), &[name(a)]),
+                Term::Unary(op, a) => writer.line(op.name(), &[name(a)]),
                 Term::Power(a, n) => writer.power(name(a), n),
                 Term::Binary(op, a, b) => writer.binary(op, name(a), name(b)),
             };
@@ -292,23 +292,5 @@ impl Writer {
         }
         let one = self.constant(1.0);
         self.line("div", &[one, power])
-    }
-}
-
-fn unary_name(op: Unary) -> &'static str {
-    match op {
-        Unary::Neg => "neg",
-        Unary::Abs => "abs",
-        Unary::Square => "square",
-        Unary::Sqrt => "sqrt",
-        Unary::Sin => "sin",
-        Unary::Cos => "cos",
-        Unary::Tan => "tan",
-        Unary::Asin => "asin",
-        Unary::Acos => "acos",
-        Unary::Atan => "atan",
-        Unary::Exp => "exp",
-        Unary::Ln => "ln",
-        Unary::Floor => "floor",
     }
 }

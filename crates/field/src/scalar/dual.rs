@@ -372,10 +372,16 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
         // Divided twice, because the square of the length leaves the range of single precision early.
         let (sin, cos) = (self.value * inverse, x.value * inverse);
         let mut angle = self.chain2(x, self.value.atan2(x.value), [cos * inverse, -sin * inverse]);
-        // Where x is negative, the angle jumps with the sign of y.
-        let zero = x.value.lift(0.0);
-        let jump = T::select(x.value.lt(zero), self.value.less(zero), zero).step_slope();
-        angle.gradient.iter_mut().for_each(|slope| *slope = *slope + jump);
+        if T::IS_ENCLOSURE {
+            // Where x is negative, the angle jumps with the sign of y; any slope there is one of an enclosure only.
+            let zero = x.value.lift(0.0);
+            let jump = T::select(x.value.lt(zero), self.value.less(zero), zero).step_slope();
+            angle = angle.map(
+                angle.value,
+                #[inline(always)]
+                |slope| slope + jump,
+            );
+        }
         angle
     }
 

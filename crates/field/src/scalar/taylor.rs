@@ -353,7 +353,8 @@ impl<I: Simd> Scalar for Taylor<I> {
         if !Lanes::<I>::any(mask.is_open()) {
             return decided;
         }
-        // Of two that go side by side, a model of both keeps the shape; of one that goes far beyond the other, nothing but its range.
+        // Of two that go side by side, a model of both keeps the shape; of one that goes far beyond the other, nothing but its
+        // range.
         let (both, flat) = (self.hull(rhs), Self::constant_within(self.range().min(rhs.range())));
         Self::choose(mask.is_open(), Self::choose(flat.r.lt(both.r), flat, both), decided)
     }

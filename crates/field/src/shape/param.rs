@@ -78,8 +78,8 @@ pub enum ParamKind {
     Points2,
     /// A list of points: x, y, z.
     Points3,
-    /// One or several closed lines of the plane: lists of corners x, y and the angle by which the edge to the next corner turns to the
-    /// left, 0 for a straight one; stored with a fourth number, 1 for the last corner of a line and otherwise 0.
+    /// One or several closed lines of the plane: lists of corners x, y and the angle by which the edge to the next corner turns
+    /// to the left, 0 for a straight one; stored with a fourth number, 1 for the last corner of a line and otherwise 0.
     Contours,
     /// A text: a list of the numbers of its characters.
     Text,

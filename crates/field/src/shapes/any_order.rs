@@ -1,7 +1,7 @@
 //! Blends by polynomials of any order above 1. Bounds.
 //!
-//! With h = max(k - |a - b|, 0) / k the smooth minimum of order n is min(a, b) - k/(2n) h^n (Quilez, "smooth minimum", 2013; order n after
-//! Csébfalvi). Orders 2 and 3 are also had from the smooth operators, without a power and therefore faster.
+//! With h = max(k - |a - b|, 0) / k the smooth minimum of order n is min(a, b) - k/(2n) h^n (Quilez, "smooth minimum", 2013;
+//! order n after Csébfalvi). Orders 2 and 3 are also had from the smooth operators, without a power and therefore faster.
 
 use super::blend::{self, Family, inverse, nearness};
 use crate::shape_prelude::*;
@@ -33,21 +33,22 @@ pub static POLYNOMIAL_DIFFERENCE: Shape = blend::difference::<Polynomial>(About 
         [ { "box": { "size": 1.4 } }, { "sphere": { "radius": 0.9 } } ] } }"#,
 });
 
-/// Everything that lies in any of the shapes, with a fillet that is sharper in its middle the higher the `order` in the seams; `k` is the visible size.
-/// Shapes are blended one after another, so that their order matters a little where several seams meet.
+/// Everything that lies in any of the shapes, with a fillet that is sharper in its middle the higher the `order` in the seams;
+/// `k` is the visible size. Shapes are blended one after another, so that their order matters a little where several seams meet.
 #[track_caller]
 pub fn polynomial_union<F: Into<Field>>(k: impl Into<Value>, shapes: impl IntoIterator<Item = F>) -> Field {
     Field::new(&POLYNOMIAL_UNION, [k.into()], shapes.into_iter().map(Into::into))
 }
 
-/// What all the shapes have in common, with a fillet that is sharper in its middle the higher the `order` along its edges; `k` is the visible size.
-/// Shapes are blended one after another, so that their order matters a little where several seams meet.
+/// What all the shapes have in common, with a fillet that is sharper in its middle the higher the `order` along its edges; `k` is
+/// the visible size. Shapes are blended one after another, so that their order matters a little where several seams meet.
 #[track_caller]
 pub fn polynomial_intersection<F: Into<Field>>(k: impl Into<Value>, shapes: impl IntoIterator<Item = F>) -> Field {
     Field::new(&POLYNOMIAL_INTERSECTION, [k.into()], shapes.into_iter().map(Into::into))
 }
 
-/// The first shape without all the others, with a fillet that is sharper in its middle the higher the `order` along the cut's edges; `k` is the visible size.
+/// The first shape without all the others, with a fillet that is sharper in its middle the higher the `order` along the cut's
+/// edges; `k` is the visible size.
 #[track_caller]
 pub fn polynomial_difference<F: Into<Field>>(k: impl Into<Value>, shapes: impl IntoIterator<Item = F>) -> Field {
     Field::new(&POLYNOMIAL_DIFFERENCE, [k.into()], shapes.into_iter().map(Into::into))

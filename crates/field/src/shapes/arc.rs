@@ -12,7 +12,8 @@ pub struct Arc;
 /// The descriptor of [`arc`].
 pub static ARC: Shape = Shape::special::<Arc>();
 
-/// All that a disc of this width fills while its middle moves along an arc around the origin. The arc takes up an angle in degrees, half of it to each side of the y axis.
+/// All that a disc of this width fills while its middle moves along an arc around the origin. The arc takes up an angle in
+/// degrees, half of it to each side of the y axis.
 #[track_caller]
 pub fn arc(radius: impl Into<Value>, width: impl Into<Value>, degrees: f64) -> Form<Arc> {
     Form::new(&ARC, [radius.into(), width.into(), degrees.to_radians().into()])
@@ -38,7 +39,7 @@ impl Special for Arc {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[radius, width, angle] = args else { unreachable!("3 numbers") };
+        let &[radius, width, angle] = args else { unreachable!("three numbers") };
         if width > 2.0 * radius {
             return Err("`width` of `arc` must not exceed twice the radius".into());
         }
@@ -51,7 +52,7 @@ impl Special for Arc {
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[radius, width, angle] = args else { unreachable!("3 numbers") };
+        let &[radius, width, angle] = args else { unreachable!("three numbers") };
         let (sin, cos) = libm::sincos(angle / 2.0);
         let (outer, inner) = (radius + width / 2.0, radius - width / 2.0);
         closed(&[

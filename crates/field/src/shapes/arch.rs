@@ -33,7 +33,7 @@ impl Special for Arch {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[width, height] = args else { unreachable!("2 numbers") };
+        let &[width, height] = args else { unreachable!("two numbers") };
         if height <= width / 2.0 {
             return Err("the height of `arch` must be above half its width; for less use `circle_segment`".into());
         }
@@ -41,7 +41,7 @@ impl Special for Arch {
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[width, height] = args else { unreachable!("2 numbers") };
+        let &[width, height] = args else { unreachable!("two numbers") };
         let (right, top) = (width / 2.0, (height - width) / 2.0);
         closed(&[[-right, -height / 2.0, 0.0], [right, -height / 2.0, 0.0], [right, top, PI], [-right, top, 0.0]])
     }

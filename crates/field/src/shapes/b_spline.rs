@@ -13,7 +13,8 @@ pub struct BSplineTube;
 /// The descriptor of [`b_spline`].
 pub static B_SPLINE: Shape = Shape::special::<BSplineTube>();
 
-/// A tube along the B-spline of a degree with these control points and evenly spaced knots, from the first to the last. `with("closed", ...)` closes it.
+/// A tube along the B-spline of a degree with these control points and evenly spaced knots, from the first to the last.
+/// `with("closed", ...)` closes it.
 #[track_caller]
 pub fn b_spline<V: Into<Value>>(
     radius: impl Into<Value>,

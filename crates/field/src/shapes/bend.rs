@@ -12,8 +12,8 @@ pub static BEND: Shape = Shape::map::<Bending>();
 
 /// Bending a shape.
 pub trait Bend: Into<Field> {
-    /// The shape bent by so many degrees for each unit along x: its x axis becomes an arc that touches the old one at the origin and turns
-    /// towards positive y.
+    /// The shape bent by so many degrees for each unit along x: its x axis becomes an arc that touches the old one at the origin
+    /// and turns towards positive y.
     #[track_caller]
     fn bend(self, degrees: f64) -> Field {
         Field::new(&BEND, [degrees.to_radians().into()], [self.into()])
@@ -67,13 +67,16 @@ impl Map for Bending {
     }
 
     fn support(args: &[f64], direction: DVec3, reach: Supports<'_>) -> f64 {
+        let rise = if direction.z == 0.0 { 0.0 } else { reach(DVec3::Z * direction.z) };
+        if direction.x == 0.0 && direction.y == 0.0 {
+            return rise;
+        }
         let curvature = args[0];
         // A bend towards negative y is one towards positive y in a mirror.
         let (radius, side) = (1.0 / curvature.abs(), curvature.signum());
         let (left, right) = (-reach(DVec3::NEG_X), reach(DVec3::X));
         let (outer, inner) = (radius + reach(DVec3::NEG_Y * side), radius - reach(DVec3::Y * side));
         let (x, y) = (direction.x, direction.y * side);
-        let rise = if direction.z == 0.0 { 0.0 } else { reach(DVec3::Z * direction.z) };
         // How far the points of the unit circle between both ends reach, from its middle: at an end, or where the circle does.
         let at = |angle: f64| x * libm::sin(angle) - y * libm::cos(angle);
         let (from, to, farthest) = (left / radius, right / radius, libm::atan2(x, -y));

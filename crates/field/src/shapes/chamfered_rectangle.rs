@@ -35,7 +35,7 @@ impl Special for ChamferedRectangle {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[width, height, chamfer] = args else { unreachable!("3 numbers") };
+        let &[width, height, chamfer] = args else { unreachable!("three numbers") };
         if chamfer > width.min(height) / 2.0 {
             return Err("`chamfer` of `chamfered_rectangle` must not exceed half the smaller edge".into());
         }
@@ -43,7 +43,7 @@ impl Special for ChamferedRectangle {
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[width, height, chamfer] = args else { unreachable!("3 numbers") };
+        let &[width, height, chamfer] = args else { unreachable!("three numbers") };
         let (x, y) = (width / 2.0, height / 2.0);
         let (inner_x, inner_y) = (x - chamfer, y - chamfer);
         vec![inner_x, -y, x, -inner_y, x, inner_y, inner_x, y, -inner_x, y, -x, inner_y, -x, -inner_y, -inner_x, -y]

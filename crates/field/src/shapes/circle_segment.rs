@@ -31,7 +31,7 @@ impl Special for CircleSegment {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[radius, height] = args else { unreachable!("2 numbers") };
+        let &[radius, height] = args else { unreachable!("two numbers") };
         if height.abs() >= radius {
             return Err(
                 "the cut of `circle_segment` misses the disc: `height` must lie between minus and plus `radius`".into(),
@@ -41,7 +41,7 @@ impl Special for CircleSegment {
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[radius, height] = args else { unreachable!("2 numbers") };
+        let &[radius, height] = args else { unreachable!("two numbers") };
         let half = (radius * radius - height * height).sqrt();
         closed(&[[half, height, 2.0 * libm::acos(height / radius)], [-half, height, 0.0]])
     }

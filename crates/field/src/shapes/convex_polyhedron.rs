@@ -173,9 +173,9 @@ impl Primitive for ConvexPolyhedron {
     }
 }
 
-/// How far outside of the plane the point is that it is farthest outside of, and its foot on that plane outside of all others: if the
-/// nearest point lies on a face at all, it lies on that plane's, for no half-space that holds the polyhedron is farther than the
-/// polyhedron.
+/// How far outside of the plane the point is that it is farthest outside of, and its foot on that plane outside of all others: if
+/// the nearest point lies on a face at all, it lies on that plane's, for no half-space that holds the polyhedron is farther than
+/// the polyhedron.
 #[inline(always)]
 fn foot_of_farthest<S: Scalar>(p: Vec3<S>, planes: &Constants<'_, S>) -> [S; 2] {
     let first = planes.part(0, PLANE);

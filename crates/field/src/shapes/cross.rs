@@ -38,7 +38,7 @@ impl Special for Cross {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[size, width, round] = args else { unreachable!("3 numbers") };
+        let &[size, width, round] = args else { unreachable!("three numbers") };
         if width >= size {
             return Err("`width` of `cross` must be below `size`".into());
         }
@@ -49,7 +49,7 @@ impl Special for Cross {
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[size, width, round] = args else { unreachable!("3 numbers") };
+        let &[size, width, round] = args else { unreachable!("three numbers") };
         let (end, side) = (size / 2.0, width / 2.0);
         // The right arm from the lower notch on; the others are that one, turned.
         let arm = [

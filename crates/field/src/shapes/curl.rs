@@ -1,4 +1,5 @@
-//! Curl: a shape turned about the z axis by an angle that grows along x. It is no bend that keeps lengths, but simple, and well known.
+//! Curl: a shape turned about the z axis by an angle that grows along x. It is no bend that keeps lengths, but simple, and well
+//! known.
 
 use super::swirl::on_circle;
 use crate::shape_prelude::*;

@@ -10,8 +10,8 @@ pub struct Dodecahedron;
 /// The descriptor of [`dodecahedron`].
 pub static DODECAHEDRON: Shape = Shape::special::<Dodecahedron>();
 
-/// Radius of the inscribed sphere of a regular dodecahedron, and of a regular icosahedron, over that of the sphere through its corners:
-/// `sqrt((5 + 2 sqrt(5)) / 15)`.
+/// Radius of the inscribed sphere of a regular dodecahedron, and of a regular icosahedron, over that of the sphere through its
+/// corners: `sqrt((5 + 2 sqrt(5)) / 15)`.
 pub(crate) const INNER_OF_OUTER: f64 = 0.794_654_472_291_766_1;
 
 /// A regular dodecahedron around the origin, with corners at this distance from it, eight of them on the diagonals of a cube.
@@ -32,13 +32,13 @@ impl Special for Dodecahedron {
     };
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[radius] = args else { unreachable!("1 numbers") };
-        faces_across_edges(radius * INNER_OF_OUTER).collect()
+        let &[radius] = args else { unreachable!("one number") };
+        faces(radius * INNER_OF_OUTER).collect()
     }
 }
 
 /// The faces of a dodecahedron at this distance: towards the corners of an icosahedron.
-pub(crate) fn faces_across_edges(distance: f64) -> impl Iterator<Item = f64> {
+pub(crate) fn faces(distance: f64) -> impl Iterator<Item = f64> {
     const SIGNS: [f64; 2] = [1.0, -1.0];
     let corners = (0..3).flat_map(|axis| {
         SIGNS.into_iter().flat_map(move |one| SIGNS.into_iter().map(move |other| (axis, one * GOLDEN, other)))

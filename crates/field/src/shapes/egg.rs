@@ -11,7 +11,8 @@ pub struct Egg;
 /// The descriptor of [`egg`].
 pub static EGG: Shape = Shape::special::<Egg>();
 
-/// An egg: a half disc below, a smaller disc on top, and arcs between that go over into both. The middle of the lower disc is the origin.
+/// An egg: a half disc below, a smaller disc on top, and arcs between that go over into both. The middle of the lower disc is the
+/// origin.
 #[track_caller]
 pub fn egg(bottom: impl Into<Value>, top: impl Into<Value>) -> Form<Egg> {
     Form::new(&EGG, [bottom.into(), top.into()])
@@ -32,7 +33,7 @@ impl Special for Egg {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[bottom, top] = args else { unreachable!("2 numbers") };
+        let &[bottom, top] = args else { unreachable!("two numbers") };
         if top >= bottom {
             return Err("`top` of `egg` must be below `bottom`".into());
         }
@@ -40,7 +41,7 @@ impl Special for Egg {
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[bottom, top] = args else { unreachable!("2 numbers") };
+        let &[bottom, top] = args else { unreachable!("two numbers") };
         // The arcs at the sides are those of an equilateral triangle, moved outward.
         let (sin, cos) = libm::sincos(FRAC_PI_3);
         let side = 2.0 * bottom - top;

@@ -1,14 +1,14 @@
 //! V-shaped groove where two surfaces meet. A bound.
 
-use super::blend::solids;
+use super::carve::{Carve, Carved};
 use crate::shape_prelude::*;
 
-/// See [`engrave`].
+/// The operator [`engrave`].
 #[derive(Clone, Copy, Debug)]
-pub struct Engrave;
+struct Engrave;
 
 /// The descriptor of [`engrave`].
-pub static ENGRAVE: Shape = Shape::combine::<Engrave>();
+pub static ENGRAVE: Shape = Shape::combine::<Carved<Engrave>>();
 
 /// The first shape with a V-shaped groove of this depth along the curve in which the surface of the others meets its own.
 #[track_caller]
@@ -16,7 +16,7 @@ pub fn engrave<F: Into<Field>>(depth: impl Into<Value>, shapes: impl IntoIterato
     Field::new(&ENGRAVE, [depth.into()], shapes.into_iter().map(Into::into))
 }
 
-impl Combine for Engrave {
+impl Carve for Engrave {
     const ABOUT: About = About {
         name: "engrave",
         summary: "A shape with a V-shaped groove where the surface of another shape meets its own.",
@@ -26,28 +26,10 @@ impl Combine for Engrave {
             { "box": { "size": [1.6, 1.6, 0.9] } }, { "cylinder": { "radius": 0.5, "height": 1.6 } } ] } }"#,
     };
 
-    const HULL: Hull = Hull::First;
-
-    fn contract(_args: &[f64], a: Contract, b: Contract) -> Result<Contract, String> {
-        solids(a, b)?;
-        Ok(a.worse_of(b).at_most_bound())
-    }
-
+    /// Where the gradients of both look the same way, the groove's would be twice as long, hence the factor.
     #[inline(always)]
-    fn combine<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
-        value(a, b, c).agreed(value(a.core(), b.core(), c).around_core(a, b))
+    fn value<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
+        let [depth] = c.get();
+        a.max((a + depth - b.abs()) * 0.5)
     }
-
-    /// All of it is the first shape's.
-    #[inline(always)]
-    fn share<S: Scalar>(a: S, _b: S, _c: &Constants<'_, S>) -> S {
-        a.lift(0.0)
-    }
-}
-
-/// Where the gradients of both look the same way, the groove's would be twice as long, hence the factor.
-#[inline(always)]
-fn value<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
-    let [depth] = c.get();
-    a.max((a + depth - b.abs()) * 0.5)
 }

@@ -1,7 +1,7 @@
 //! Blends by exponentials, in which the order of the operands does not matter. Bounds.
 //!
-//! The smooth minimum is -ln(e^(-ca) + e^(-cb)) / c, computed as min(a, b) - ln(1 + e^(-c |a - b|)) / c, which can't overflow. It is
-//! associative: operands may come in any order. It has no end of its own; c is chosen so that nothing is seen of it beyond k.
+//! The smooth minimum is -ln(e^(-ca) + e^(-cb)) / c, computed as min(a, b) - ln(1 + e^(-c |a - b|)) / c, which can't overflow. It
+//! is associative: operands may come in any order. It has no end of its own; c is chosen so that nothing is seen of it beyond k.
 
 use super::blend::{self, Family};
 use crate::shape_prelude::*;
@@ -70,9 +70,7 @@ const SETTLED: f64 = 38.0;
 fn weight<S: Scalar>(gap: S, c: S) -> S {
     // Not below 0, as roundings of enclosures may be: without a blend c is so large that they would come to infinite weights.
     let exponent = (gap * c).min(gap.lift(SETTLED)).max(gap.lift(0.0));
-    // Between 0 and 1, which models do not know where the exponent may be anything: a polynomial goes far beyond there.
-    let weight = (-exponent).exp().min(gap.lift(1.0)).max(gap.lift(0.0));
-    S::select(exponent.lt(gap.lift(END)), weight, gap.lift(0.0))
+    S::select(exponent.lt(gap.lift(END)), (-exponent).exp(), gap.lift(0.0))
 }
 
 impl Family for Exponential {

@@ -1,14 +1,14 @@
 //! Rectangular groove where two surfaces meet. A bound.
 
-use super::blend::solids;
+use super::carve::{Carve, Carved};
 use crate::shape_prelude::*;
 
-/// See [`groove`].
+/// The operator [`groove`].
 #[derive(Clone, Copy, Debug)]
-pub struct Groove;
+struct Groove;
 
 /// The descriptor of [`groove`].
-pub static GROOVE: Shape = Shape::combine::<Groove>();
+pub static GROOVE: Shape = Shape::combine::<Carved<Groove>>();
 
 /// The first shape with a groove of this depth and width along the curve in which the surface of the others meets its own.
 #[track_caller]
@@ -20,7 +20,7 @@ pub fn groove<F: Into<Field>>(
     Field::new(&GROOVE, [depth.into(), width.into()], shapes.into_iter().map(Into::into))
 }
 
-impl Combine for Groove {
+impl Carve for Groove {
     const ABOUT: About = About {
         name: "groove",
         summary: "A shape with a rectangular groove where the surface of another shape meets its own.",
@@ -33,31 +33,13 @@ impl Combine for Groove {
             { "box": { "size": [1.6, 1.6, 0.9] } }, { "cylinder": { "radius": 0.5, "height": 1.6 } } ] } }"#,
     };
 
-    const HULL: Hull = Hull::First;
-
     fn prepare(args: &[f64]) -> Vec<f64> {
         vec![args[0], args[1] / 2.0]
     }
 
-    fn contract(_args: &[f64], a: Contract, b: Contract) -> Result<Contract, String> {
-        solids(a, b)?;
-        Ok(a.worse_of(b).at_most_bound())
-    }
-
     #[inline(always)]
-    fn combine<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
-        value(a, b, c).agreed(value(a.core(), b.core(), c).around_core(a, b))
+    fn value<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
+        let [depth, half] = c.get();
+        a.max((a + depth).min(half - b.abs()))
     }
-
-    /// All of it is the first shape's.
-    #[inline(always)]
-    fn share<S: Scalar>(a: S, _b: S, _c: &Constants<'_, S>) -> S {
-        a.lift(0.0)
-    }
-}
-
-#[inline(always)]
-fn value<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
-    let [depth, half] = c.get();
-    a.max((a + depth).min(half - b.abs()))
 }

@@ -11,7 +11,8 @@ pub struct Heart;
 /// The descriptor of [`heart`].
 pub static HEART: Shape = Shape::special::<Heart>();
 
-/// A heart: a square on its corner with a half disc on each of the upper sides. Its tip points down, and its box is centred at the origin.
+/// A heart: a square on its corner with a half disc on each of the upper sides. Its tip points down, and its box is centred at
+/// the origin.
 #[track_caller]
 pub fn heart(width: impl Into<Value>) -> Form<Heart> {
     Form::new(&HEART, [width.into()])
@@ -29,7 +30,7 @@ impl Special for Heart {
     };
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[width] = args else { unreachable!("1 numbers") };
+        let &[width] = args else { unreachable!("one number") };
         let half_diagonal = width / (1.0 + SQRT_2);
         // The half discs reach as far above the middles of their sides as those sides are long, halved.
         let top = half_diagonal / 2.0 + half_diagonal / SQRT_2;

@@ -12,7 +12,8 @@ pub struct Horseshoe;
 /// The descriptor of [`horseshoe`].
 pub static HORSESHOE: Shape = Shape::special::<Horseshoe>();
 
-/// A wide line along an arc around the origin and on from its ends, straight. The arc takes up an angle in degrees, half of it to each side of the lower half of the y axis.
+/// A wide line along an arc around the origin and on from its ends, straight. The arc takes up an angle in degrees, half of it to
+/// each side of the lower half of the y axis.
 #[track_caller]
 pub fn horseshoe(
     radius: impl Into<Value>,
@@ -40,7 +41,7 @@ impl Special for Horseshoe {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[radius, width, angle, length] = args else { unreachable!("4 numbers") };
+        let &[radius, width, angle, length] = args else { unreachable!("four numbers") };
         if width > 2.0 * radius {
             return Err("`width` of `horseshoe` must not exceed twice the radius".into());
         }
@@ -52,7 +53,7 @@ impl Special for Horseshoe {
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[radius, width, angle, length] = args else { unreachable!("4 numbers") };
+        let &[radius, width, angle, length] = args else { unreachable!("four numbers") };
         let (sin, cos) = libm::sincos(angle / 2.0);
         let (outer, inner) = (radius + width / 2.0, radius - width / 2.0);
         // From the end of the arc on, a leg leads along the tangent.

@@ -29,7 +29,7 @@ impl Special for Icosahedron {
     };
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[radius] = args else { unreachable!("1 numbers") };
+        let &[radius] = args else { unreachable!("one number") };
         corners().flat_map(|[x, y, z]| [x, y, z, radius * INNER_OF_OUTER]).collect()
     }
 }

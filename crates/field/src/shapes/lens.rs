@@ -31,7 +31,7 @@ impl Special for Lens {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[width, height] = args else { unreachable!("2 numbers") };
+        let &[width, height] = args else { unreachable!("two numbers") };
         if width > height {
             return Err(
                 "`width` of `lens` must not exceed its height; turn it for a lens that is wider than high".into()
@@ -41,7 +41,7 @@ impl Special for Lens {
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[width, height] = args else { unreachable!("2 numbers") };
+        let &[width, height] = args else { unreachable!("two numbers") };
         let turn = 4.0 * libm::atan(width / height);
         closed(&[[0.0, -height / 2.0, turn], [0.0, height / 2.0, turn]])
     }

@@ -33,7 +33,7 @@ impl Special for Moon {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[outer, inner, distance] = args else { unreachable!("3 numbers") };
+        let &[outer, inner, distance] = args else { unreachable!("three numbers") };
         if distance >= outer + inner || distance <= (outer - inner).abs() {
             return Err("the circles of `moon` don't cross; for other cases use `difference` or `ring`".into());
         }
@@ -41,7 +41,7 @@ impl Special for Moon {
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[outer, inner, distance] = args else { unreachable!("3 numbers") };
+        let &[outer, inner, distance] = args else { unreachable!("three numbers") };
         let x = (outer * outer - inner * inner + distance * distance) / (2.0 * distance);
         let y = (outer * outer - x * x).sqrt();
         let (own, other) = (libm::atan2(y, x), libm::atan2(y, distance - x));

@@ -1,4 +1,5 @@
-//! Regular octahedron. Exact: folded into one face, whose corners and edges count where the foot of the perpendicular lies beside it.
+//! Regular octahedron. Exact: folded into one face, whose corners and edges count where the foot of the perpendicular lies beside
+//! it.
 
 use crate::shape_prelude::*;
 

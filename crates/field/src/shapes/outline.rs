@@ -17,8 +17,8 @@ pub struct Outline;
 /// The descriptor of [`outline`].
 pub static OUTLINE: Shape = Shape::primitive::<Outline>();
 
-/// The figure within closed lines: of each the corners x, y, and the angle in radians by which the edge to the next corner turns to the
-/// left, 0 for a straight one. What lies inside of an even number of lines is outside.
+/// The figure within closed lines: of each the corners x, y, and the angle in radians by which the edge to the next corner turns
+/// to the left, 0 for a straight one. What lies inside of an even number of lines is outside.
 #[track_caller]
 pub fn outline(contours: impl IntoIterator<Item = Vec<[f64; 3]>>) -> Form<Outline> {
     Form::new(&OUTLINE, contours.into_iter().flat_map(|contour| closed(&contour)).map(Value::from))
@@ -94,8 +94,8 @@ impl Edge {
         if beyond <= 0.0 { ends.max(farthest.dot(direction)) } else { ends }
     }
 
-    /// Both ends; the normal of the chord, towards the arc if it is one; sine and cosine of half the angle that it turns by; and the
-    /// radius, 0 for a straight edge.
+    /// Both ends; the normal of the chord, towards the arc if it is one; sine and cosine of half the angle that it turns by; and
+    /// the radius, 0 for a straight edge.
     fn constants(self) -> [f64; ROW] {
         let chord = self.to - self.from;
         let right = if chord == DVec2::ZERO { DVec2::X } else { -chord.perp().normalize() };
@@ -203,7 +203,8 @@ impl Primitive for Outline {
                 let along = (mx * ny - my * nx).abs();
                 let across = mx * nx + my * ny;
                 let half = (ex * ny - ey * nx).abs() * 0.5;
-                // Above 0 where neither end is nearest: where the angle from the middle of the arc is less than half of what it turns by.
+                // Above 0 where neither end is nearest: where the angle from the middle of the arc is less than half of what it
+                // turns by.
                 let is_between = zero.lt(sin * across + cos * (half - along));
                 let to_centre = radius * cos;
                 // The square of the distance from the centre, less that of the radius, without a difference of large numbers.

@@ -35,7 +35,7 @@ impl Special for Parallelogram {
     };
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[width, height, skew] = args else { unreachable!("3 numbers") };
+        let &[width, height, skew] = args else { unreachable!("three numbers") };
         let (x, y, lean) = (width / 2.0, height / 2.0, skew / 2.0);
         vec![-x - lean, -y, x - lean, -y, x + lean, y, -x + lean, y]
     }

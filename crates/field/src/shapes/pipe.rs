@@ -1,15 +1,15 @@
 //! Pipe along the seam of two surfaces: the length of (a, b), less the radius. A bound.
 
-use super::blend::solids;
+use super::carve::{Carve, Carved};
 use crate::shape_prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
-/// See [`pipe`].
+/// The operator [`pipe`].
 #[derive(Clone, Copy, Debug)]
-pub struct Pipe;
+struct Pipe;
 
 /// The descriptor of [`pipe`].
-pub static PIPE: Shape = Shape::combine::<Pipe>();
+pub static PIPE: Shape = Shape::combine::<Carved<Pipe>>();
 
 /// A pipe of this radius along the curve in which the surfaces of two shapes meet.
 #[track_caller]
@@ -17,7 +17,7 @@ pub fn pipe<F: Into<Field>>(radius: impl Into<Value>, shapes: impl IntoIterator<
     Field::new(&PIPE, [radius.into()], shapes.into_iter().map(Into::into))
 }
 
-impl Combine for Pipe {
+impl Carve for Pipe {
     const ABOUT: About = About {
         name: "pipe",
         summary: "A pipe along the curve in which the surfaces of two shapes meet.",
@@ -33,19 +33,16 @@ impl Combine for Pipe {
 
     const HULL: Hull = Hull::Common;
 
-    fn contract(_args: &[f64], a: Contract, b: Contract) -> Result<Contract, String> {
-        solids(a, b)?;
-        Ok(a.worse_of(b).at_most_bound())
-    }
-
     /// The first two shapes are combined first, and come into all the others.
     fn level(args: &[f64], level: f64, count: usize) -> f64 {
         (1..count).fold(level, |level, _| args[0] + level * SQRT_2)
     }
 
+    /// The gradients of both may look the same way, hence the factor: values are no more than distances.
     #[inline(always)]
-    fn combine<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
-        value(a, b, c).agreed(value(a.core(), b.core(), c).around_core(a, b))
+    fn value<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
+        let [radius] = c.get();
+        (S::length2(a, b) - radius) * FRAC_1_SQRT_2
     }
 
     /// As far as the surface of either is from the curve, the pipe belongs to the other.
@@ -53,11 +50,4 @@ impl Combine for Pipe {
     fn share<S: Scalar>(a: S, b: S, _c: &Constants<'_, S>) -> S {
         a.abs().less(b.abs())
     }
-}
-
-/// The gradients of both may look the same way, hence the factor: values are no more than distances.
-#[inline(always)]
-fn value<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
-    let [radius] = c.get();
-    (S::length2(a, b) - radius) * FRAC_1_SQRT_2
 }

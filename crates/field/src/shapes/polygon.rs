@@ -71,7 +71,8 @@ pub(crate) fn support_of_corners(corners: &[f64], direction: DVec3, level: f64) 
 /// How many constants an edge has.
 const EDGE: usize = 6;
 
-/// The constants of the edges between corners: for each both ends, and the way from the second to the first over its squared length.
+/// The constants of the edges between corners: for each both ends, and the way from the second to the first over its squared
+/// length.
 pub(crate) fn edges(corners: &[f64]) -> Vec<f64> {
     let count = corners.len() / 2;
     let corner = |index: usize| DVec2::from_slice(&corners[2 * (index % count)..]);
@@ -120,8 +121,8 @@ pub(crate) fn polygon_distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S
     side.agreed(other_side) * S::length2(nx, ny).agreed(least.sqrt())
 }
 
-/// Whether a half-line from a point crosses an edge, by which ends of the edge lie beyond the line that the half-line is part of, and
-/// by the side of the edge on which the point lies.
+/// Whether a half-line from a point crosses an edge, by which ends of the edge lie beyond the line that the half-line is part of,
+/// and by the side of the edge on which the point lies.
 #[inline(always)]
 pub(crate) fn crosses<M: Mask>(starts: M, ends: M, is_right: M) -> M {
     (!starts & ends & is_right) | (starts & !ends & !is_right)

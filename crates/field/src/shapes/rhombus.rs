@@ -28,7 +28,7 @@ impl Special for Rhombus {
     };
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[width, height] = args else { unreachable!("2 numbers") };
+        let &[width, height] = args else { unreachable!("two numbers") };
         let (x, y) = (width / 2.0, height / 2.0);
         vec![x, 0.0, 0.0, y, -x, 0.0, 0.0, -y]
     }

@@ -37,7 +37,7 @@ impl Special for RingSector {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[outer, inner, angle] = args else { unreachable!("3 numbers") };
+        let &[outer, inner, angle] = args else { unreachable!("three numbers") };
         if inner >= outer {
             return Err("`inner` of `ring_sector` must be below `outer`".into());
         }
@@ -45,7 +45,7 @@ impl Special for RingSector {
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[outer, inner, angle] = args else { unreachable!("3 numbers") };
+        let &[outer, inner, angle] = args else { unreachable!("three numbers") };
         let (sin, cos) = libm::sincos(angle / 2.0);
         closed(&[
             [outer * sin, outer * cos, angle],

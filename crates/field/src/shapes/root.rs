@@ -1,8 +1,8 @@
 //! Blends by hyperbolas. Bounds.
 //!
-//! Quilez' root form is (a + b - sqrt((a - b)^2 + w^2)) / 2, which deviates from the minimum everywhere ("smooth minimum", root). Here
-//! w = k/4, its tangent at a gap of k is taken off, and what remains is scaled so that the shares are 1/2 in the seam; so the
-//! blend ends at k, as all others do.
+//! Quilez' root form is (a + b - sqrt((a - b)^2 + w^2)) / 2, which deviates from the minimum everywhere ("smooth minimum", root).
+//! Here w = k/4, its tangent at a gap of k is taken off, and what remains is scaled so that the shares are 1/2 in the seam; so
+//! the blend ends at k, as all others do.
 
 use super::blend::{self, Family, inverse, nearness};
 use crate::shape_prelude::*;

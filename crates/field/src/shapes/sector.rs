@@ -32,12 +32,12 @@ impl Special for Sector {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[_radius, angle] = args else { unreachable!("2 numbers") };
+        let &[_radius, angle] = args else { unreachable!("two numbers") };
         part_of_turn("sector", angle)
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[radius, angle] = args else { unreachable!("2 numbers") };
+        let &[radius, angle] = args else { unreachable!("two numbers") };
         let (sin, cos) = libm::sincos(angle / 2.0);
         closed(&[[0.0, 0.0, 0.0], [radius * sin, radius * cos, angle], [-radius * sin, radius * cos, 0.0]])
     }

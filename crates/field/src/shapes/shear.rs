@@ -14,8 +14,8 @@ const PLANES: &[&str] = &["xy", "xz", "yx", "yz", "zx", "zy"];
 
 /// Shearing a shape.
 pub trait Shear: Into<Field> {
-    /// The shape sheared: `plane` names the coordinate that is moved and the one that it moves with, such as "xz"; `by` is how far it moves
-    /// for each unit of that.
+    /// The shape sheared: `plane` names the coordinate that is moved and the one that it moves with, such as "xz"; `by` is how
+    /// far it moves for each unit of that.
     #[track_caller]
     fn shear(self, plane: &str, by: impl Into<Value>) -> Field {
         let plane = PLANES.iter().position(|&name| name == plane).expect("two different letters of x, y and z");

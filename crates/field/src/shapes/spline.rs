@@ -1,5 +1,5 @@
-//! Tube along a smooth curve through points (Catmull and Rom, "A class of local interpolating splines", 1974), which becomes arcs within a
-//! tolerance; the distance from these is exact outside.
+//! Tube along a smooth curve through points (Catmull and Rom, "A class of local interpolating splines", 1974), which becomes arcs
+//! within a tolerance; the distance from these is exact outside.
 
 use super::tube::{Tube, Wire, along};
 use crate::arcs3::of_curve;
@@ -58,8 +58,8 @@ impl Special for SplineTube {
     }
 }
 
-/// The curve's pieces from point to point. At each point it has the direction from the one before to the one after; at the ends of an
-/// open curve, that which makes the first and the last piece parabolas.
+/// The curve's pieces from point to point. At each point it has the direction from the one before to the one after; at the ends
+/// of an open curve, that which makes the first and the last piece parabolas.
 fn pieces(points: &[DVec3], is_closed: bool) -> Vec<Bezier<DVec3>> {
     let count = points.len();
     let slope = |index: usize| {

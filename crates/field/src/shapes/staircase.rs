@@ -31,7 +31,7 @@ impl Special for Staircase {
     };
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[width, height, steps] = args else { unreachable!("3 numbers") };
+        let &[width, height, steps] = args else { unreachable!("three numbers") };
         let (x, y) = (width / 2.0, height / 2.0);
         let mut corners = vec![-x, -y, x, -y];
         // Down the steps from the right.

@@ -33,7 +33,7 @@ impl Special for Star {
     };
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[tips, outer, inner] = args else { unreachable!("3 numbers") };
+        let &[tips, outer, inner] = args else { unreachable!("three numbers") };
         let corner = |index: u32| {
             let (sin, cos) = libm::sincos(PI * f64::from(index) / tips);
             let radius = if index.is_multiple_of(2) { outer } else { inner };

@@ -15,8 +15,8 @@ pub struct SvgPath;
 /// The descriptor of [`svg_path`].
 pub static SVG_PATH: Shape = Shape::special::<SvgPath>();
 
-/// The figure of path data, such as `"M0 0 L4 0 Q4 3 0 3 Z"`: what the attribute `d` of a path in an SVG picture holds. In pictures y
-/// leads downwards; here it leads upwards. `with("rule", ...)` chooses how lines within others are filled.
+/// The figure of path data, such as `"M0 0 L4 0 Q4 3 0 3 Z"`: what the attribute `d` of a path in an SVG picture holds. In
+/// pictures y leads downwards; here it leads upwards. `with("rule", ...)` chooses how lines within others are filled.
 #[track_caller]
 pub fn svg_path(data: &str) -> Form<SvgPath> {
     let characters = data.chars().map(|c| Value::from(u32::from(c)));

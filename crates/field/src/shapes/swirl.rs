@@ -1,7 +1,7 @@
 //! Swirl: a shape turned about the z axis by an angle that falls off with the distance from it.
 //!
-//! At distance r the Jacobian matrix of the map is a rotation times a shear by r times the change of the angle, at most the angle over e.
-//! The norm of a shear by a is (a + sqrt(a^2 + 4)) / 2.
+//! At distance r the Jacobian matrix of the map is a rotation times a shear by r times the change of the angle, at most the angle
+//! over e. The norm of a shear by a is (a + sqrt(a^2 + 4)) / 2.
 
 use crate::shape_prelude::*;
 use std::f64::consts::E;

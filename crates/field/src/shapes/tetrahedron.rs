@@ -28,7 +28,7 @@ impl Special for Tetrahedron {
     };
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[radius] = args else { unreachable!("1 numbers") };
+        let &[radius] = args else { unreachable!("one number") };
         // A face lies opposite to each corner, a third as far away.
         [[-1.0, -1.0, -1.0], [1.0, 1.0, -1.0], [1.0, -1.0, 1.0], [-1.0, 1.0, 1.0]]
             .into_iter()

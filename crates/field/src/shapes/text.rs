@@ -17,8 +17,8 @@ pub static TEXT: Shape = Shape::special::<Text>().with_file(FileParam {
     build: in_font,
 });
 
-/// A text in letters of this size, that is, of lines of this height. Its first baseline begins at the origin and leads along x; `\n` begins
-/// another line below. `with("align", ...)` centres lines on the y axis, or ends them there.
+/// A text in letters of this size, that is, of lines of this height. Its first baseline begins at the origin and leads along x;
+/// `\n` begins another line below. `with("align", ...)` centres lines on the y axis, or ends them there.
 #[track_caller]
 pub fn text(size: impl Into<Value>, text: &str) -> Form<Text> {
     let characters = text.chars().map(|c| Value::from(u32::from(c)));

@@ -1,14 +1,14 @@
 //! Rectangular ridge where two surfaces meet. A bound.
 
-use super::blend::solids;
+use super::carve::{Carve, Carved};
 use crate::shape_prelude::*;
 
-/// See [`tongue`].
+/// The operator [`tongue`].
 #[derive(Clone, Copy, Debug)]
-pub struct Tongue;
+struct Tongue;
 
 /// The descriptor of [`tongue`].
-pub static TONGUE: Shape = Shape::combine::<Tongue>();
+pub static TONGUE: Shape = Shape::combine::<Carved<Tongue>>();
 
 /// The first shape with a ridge of this height and width along the curve in which the surface of the others meets its own.
 #[track_caller]
@@ -20,7 +20,7 @@ pub fn tongue<F: Into<Field>>(
     Field::new(&TONGUE, [height.into(), width.into()], shapes.into_iter().map(Into::into))
 }
 
-impl Combine for Tongue {
+impl Carve for Tongue {
     const ABOUT: About = About {
         name: "tongue",
         summary: "A shape with a rectangular ridge where the surface of another shape meets its own.",
@@ -33,15 +33,8 @@ impl Combine for Tongue {
             { "box": { "size": [1.6, 1.6, 0.9] } }, { "cylinder": { "radius": 0.5, "height": 1.6 } } ] } }"#,
     };
 
-    const HULL: Hull = Hull::First;
-
     fn prepare(args: &[f64]) -> Vec<f64> {
         vec![args[0], args[1] / 2.0]
-    }
-
-    fn contract(_args: &[f64], a: Contract, b: Contract) -> Result<Contract, String> {
-        solids(a, b)?;
-        Ok(a.worse_of(b).at_most_bound())
     }
 
     fn level(args: &[f64], level: f64, count: usize) -> f64 {
@@ -49,19 +42,8 @@ impl Combine for Tongue {
     }
 
     #[inline(always)]
-    fn combine<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
-        value(a, b, c).agreed(value(a.core(), b.core(), c).around_core(a, b))
+    fn value<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
+        let [height, half] = c.get();
+        a.min((a - height).max(b.abs() - half))
     }
-
-    /// All of it is the first shape's.
-    #[inline(always)]
-    fn share<S: Scalar>(a: S, _b: S, _c: &Constants<'_, S>) -> S {
-        a.lift(0.0)
-    }
-}
-
-#[inline(always)]
-fn value<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
-    let [height, half] = c.get();
-    a.min((a - height).max(b.abs() - half))
 }

@@ -32,7 +32,7 @@ impl Special for Trapezoid {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[bottom, top, _height] = args else { unreachable!("3 numbers") };
+        let &[bottom, top, _height] = args else { unreachable!("three numbers") };
         if bottom == 0.0 && top == 0.0 {
             return Err("`trapezoid` is only a line: `bottom` or `top` must be above 0".into());
         }
@@ -40,7 +40,7 @@ impl Special for Trapezoid {
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[bottom, top, height] = args else { unreachable!("3 numbers") };
+        let &[bottom, top, height] = args else { unreachable!("three numbers") };
         let (low, high, y) = (bottom / 2.0, top / 2.0, height / 2.0);
         vec![-low, -y, low, -y, high, y, -high, y]
     }

@@ -28,7 +28,7 @@ impl Special for TruncatedOctahedron {
     };
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[radius] = args else { unreachable!("1 numbers") };
+        let &[radius] = args else { unreachable!("one number") };
         const SIGNS: [f64; 2] = [1.0, -1.0];
         let hexagons = SIGNS
             .into_iter()

@@ -37,7 +37,7 @@ impl Special for UnevenCapsule {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let &[bottom, top, height] = args else { unreachable!("3 numbers") };
+        let &[bottom, top, height] = args else { unreachable!("three numbers") };
         if (bottom - top).abs() >= height {
             return Err(
                 "one disc of `uneven_capsule` holds the other: `height` must be above the difference of the radii"
@@ -48,7 +48,7 @@ impl Special for UnevenCapsule {
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
-        let &[bottom, top, height] = args else { unreachable!("3 numbers") };
+        let &[bottom, top, height] = args else { unreachable!("three numbers") };
         let lean = libm::asin((bottom - top) / height);
         let (sin, cos) = libm::sincos(lean);
         let (low, high) = (bottom * sin - height / 2.0, top * sin + height / 2.0);

@@ -39,8 +39,8 @@ pub(super) struct Arguments {
     /// Leave the CPU out.
     #[arg(long, requires = "gpu")]
     no_cpu: bool,
-    /// Sample everything but planes of the scenes, with this many voxels along the longest side, and draw the samples. The CPU is left
-    /// out then.
+    /// Sample everything but planes of the scenes, with this many voxels along the longest side, and draw the samples. The CPU is
+    /// left out then.
     #[arg(long, value_name = "COUNT", requires = "gpu")]
     voxels: Option<u32>,
     /// Only scenes whose name contains this.

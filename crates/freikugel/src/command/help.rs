@@ -64,29 +64,11 @@ fn list() -> String {
 fn describe(shape: &Shape) -> String {
     let about = &shape.about;
     let mut text = format!("{}: {}\n\n", about.name, about.summary);
-    for param in about.params {
-        let _ = writeln!(text, "  {:16} {}", param.name, param.about);
-        let (takes, default) = values(param);
-        let _ = writeln!(text, "  {:16} ({takes}; {default})", "");
-    }
-    for param in shape.formulas() {
-        let default = param.default.map_or("required".to_owned(), |text| format!("{text} if left out"));
-        let _ = writeln!(text, "  {:16} {}", param.name, param.about);
-        let _ = writeln!(text, "  {:16} (a formula in x, y and z; {default})", "");
-    }
-    if let Some(file) = shape.file {
-        let _ = writeln!(text, "  {:16} {}", file.name, file.about);
-        let _ = writeln!(text, "  {:16} ({{ \"file\": NAME }})", "");
+    for Entry { name, takes, about } in entries(shape) {
+        let _ = writeln!(text, "  {name:16} {about}\n  {:16} ({takes})", "");
     }
     if matches!(shape.kind, Kind::Formula) {
         text.push_str("  The formula may stand alone as a text.\n");
-    }
-    match shape.arity() {
-        Arity::None => {}
-        Arity::One => text.push_str("  shape            The shape that is changed.\n"),
-        Arity::Many => {
-            text.push_str("  shapes           One or more shapes, in order; they may stand alone as a list.\n");
-        }
     }
     if !about.elsewhere.is_empty() {
         let _ = writeln!(text, "\nKnown elsewhere as: {}", about.elsewhere.join(", "));
@@ -98,8 +80,61 @@ fn describe(shape: &Shape) -> String {
     text
 }
 
+/// Something that a call of a shape holds.
+pub(super) struct Entry {
+    /// Its key in scene files.
+    pub(super) name: &'static str,
+    /// What it takes, and what it is if left out.
+    pub(super) takes: String,
+    /// What it means.
+    pub(super) about: &'static str,
+}
+
+/// All that a call of a shape holds.
+pub(super) fn entries(shape: &Shape) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = shape
+        .about
+        .params
+        .iter()
+        .map(|param| {
+            let (takes, default) = values(param);
+            Entry { name: param.name, takes: format!("{takes}; {default}"), about: param.about }
+        })
+        .collect();
+    entries.extend(shape.formulas().iter().map(|param| {
+        let default = param.default.map_or("required".to_owned(), |text| format!("{text} if left out"));
+        Entry { name: param.name, takes: format!("a formula in x, y and z; {default}"), about: param.about }
+    }));
+    entries.extend(shape.file.map(|file| Entry {
+        name: file.name,
+        takes: "{ \"file\": NAME }; may be left out".into(),
+        about: file.about,
+    }));
+    let mut required = |name, takes: &str, about| {
+        entries.push(Entry { name, takes: format!("{takes}; required"), about });
+    };
+    if matches!(shape.kind, Kind::Paint) {
+        required(
+            "material",
+            "the name of a material",
+            "What the shape is made of, where nothing within it says otherwise.",
+        );
+    }
+    // As a list alone they leave no room for anything else.
+    let may_be_alone = shape.about.params.iter().all(|param| param.default.is_some());
+    match shape.arity() {
+        Arity::None => {}
+        Arity::One => required("shape", "a shape", "The shape that is changed."),
+        Arity::Many if may_be_alone => {
+            required("shapes", "a list of shapes", "One or more shapes, in order; they may stand alone as a list.");
+        }
+        Arity::Many => required("shapes", "a list of shapes", "One or more shapes, in order."),
+    }
+    entries
+}
+
 /// What a parameter takes, in a few words, and what it is if left out.
-pub(super) fn values(param: &Param) -> (String, String) {
+fn values(param: &Param) -> (String, String) {
     let kind = match param.kind {
         ParamKind::Number => "a number".to_owned(),
         ParamKind::Length => "a length, 0 or more".into(),

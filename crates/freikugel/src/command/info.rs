@@ -131,7 +131,8 @@ fn count(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 
-fn promise(contract: Contract) -> String {
+/// What a contract promises, in a few words.
+pub(super) fn promise(contract: Contract) -> String {
     let name = |metric| match metric {
         Metric::Exact => "exact",
         Metric::Bound => "bound",

@@ -1,7 +1,8 @@
 //! The reference of shapes as a page of Markdown, from their descriptors.
 
-use super::help::values;
-use freikugel::field::{Analysis, Arity, Dimension, Field, Kind, Metric, Shape, analyse, shapes};
+use super::help::{Entry, entries};
+use super::info::promise;
+use freikugel::field::{Arity, Dimension, Field, Kind, Shape, analyse, shapes};
 use freikugel::scene::{self, Scene};
 use std::fmt::Write;
 
@@ -66,7 +67,8 @@ pub(super) fn markdown() -> String {
          This page is written by `cargo xtask reference` from the descriptors under `crates/field/src/shapes`; \
          [coverage](coverage.md) lists what other systems have and how it is called here.\n\n\
          *exact*: the distance to the surface. *bound*: never more than that distance. Both are safe to march along. \
-         *implicit*: right where it is 0 and in its sign. Angles are in degrees.\n",
+         *implicit*: right where it is 0 and in its sign. *unsigned*: without an inside. *slope unknown*: marched by its slope in each \
+         cell of space. Angles are in degrees.\n",
     );
     for (title, about, belongs) in GROUPS {
         let members = || shapes::ALL.iter().copied().filter(|shape| belongs(shape));
@@ -84,33 +86,13 @@ fn section(shape: &'static Shape, text: &mut String) {
     let about = &shape.about;
     let name = about.name;
     let _ = write!(text, "\n### {name}\n\n![{name}](../../gallery/reference/{name}.png)\n\n{}\n", about.summary);
-    if let Some(promise) = promise(shape) {
+    if let Some(promise) = promise_of(shape) {
         let _ = write!(text, "\nValues: {promise}.\n");
     }
-    let mut rows: Vec<[String; 3]> = about
-        .params
-        .iter()
-        .map(|param| {
-            let (takes, default) = values(param);
-            [param.name.to_owned(), format!("{takes}; {default}"), param.about.to_owned()]
-        })
-        .collect();
-    rows.extend(shape.formulas().iter().map(|param| {
-        let default = param.default.map_or("required".to_owned(), |text| format!("{text} if left out"));
-        [param.name.to_owned(), format!("a formula; {default}"), param.about.to_owned()]
-    }));
-    match shape.arity() {
-        Arity::None => {}
-        Arity::One => rows.push(["shape".into(), "a shape".into(), "The shape that is changed.".into()]),
-        Arity::Many => rows.push([
-            "shapes".into(),
-            "a list of shapes".into(),
-            "One or more shapes, in order; where nothing else is needed, they may stand alone as a list.".into(),
-        ]),
-    }
-    if !rows.is_empty() {
+    let entries = entries(shape);
+    if !entries.is_empty() {
         text.push_str("\n| parameter | takes | |\n|---|---|---|\n");
-        for [name, takes, about] in rows {
+        for Entry { name, takes, about } in entries {
             let _ = writeln!(text, "| `{name}` | {} | {} |", takes.replace('|', "\\|"), about.replace('|', "\\|"));
         }
     }
@@ -122,27 +104,10 @@ fn section(shape: &'static Shape, text: &mut String) {
 }
 
 /// What the values of a shape's example are, of the shape itself if the example does more with it.
-fn promise(shape: &'static Shape) -> Option<String> {
+fn promise_of(shape: &'static Shape) -> Option<String> {
     let scene: Scene = scene::read(&example_scene(shape)).scene?;
     let field = find(&scene.objects[0].shape, shape)?;
-    let Analysis { contract, .. } = analyse(&field).0?;
-    let name = |metric| match metric {
-        Metric::Exact => "exact",
-        Metric::Bound => "bound",
-        Metric::Implicit => "implicit",
-    };
-    let mut promise = match (contract.signed, contract.outside == contract.inside) {
-        (false, _) => format!("{}, without inside", name(contract.outside)),
-        (true, true) => name(contract.outside).to_owned(),
-        (true, false) => format!("{} outside, {} inside", name(contract.outside), name(contract.inside)),
-    };
-    match contract.lipschitz {
-        Some(1.0) => {}
-        Some(slope) => {
-            let _ = write!(promise, ", slope at most {slope:.4}");
-        }
-        None => promise.push_str(", marched by its slope in each cell of space"),
-    }
+    let promise = promise(analyse(&field).0?.contract);
     let is_changed = shape.arity() != Arity::None;
     Some(if is_changed { format!("{promise} (of this example)") } else { promise })
 }

@@ -113,7 +113,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let watch = Watch::new(arguments.quiet, &interrupt);
     let on_cpu = |input: &Input| match input {
         Input::Scene(scene) => render(scene, &options, &watch).map_err(cannot_render),
-        Input::Figures(scene) => picture_of_figures(scene, &options, &watch).map_err(cannot_render),
+        Input::Figures(scene) => picture_of_figures(scene, &options, &watch),
         Input::Region(region) => region.render(&options, &watch).map_err(cannot_render),
     };
     let how = graphics::How { adapter: arguments.adapter.as_deref(), voxels: arguments.voxels.count };

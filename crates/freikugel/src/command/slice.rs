@@ -8,9 +8,7 @@ use clap::ValueEnum;
 use freikugel::field::shapes::Extrude;
 use freikugel::field::{Aabb, Extent, Field, Limits, Program, Structure, extent, find_extent};
 use freikugel::files::Format;
-use freikugel::render::{
-    Compression, Isoline, MOST_STEPS, Options, Progress, RenderError, Rendered, Section, Show, Slice,
-};
+use freikugel::render::{Compression, Isoline, MOST_STEPS, Options, Progress, Rendered, Section, Show, Slice};
 use freikugel::scene::{Picture, Scene};
 use glam::{DVec2, DVec3};
 use std::fmt::Write;
@@ -131,13 +129,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
     let file = open(&path, &interrupt)?;
     let watch = Watch::new(arguments.quiet, &interrupt);
-    let drawn = if is_svg {
-        slice.lines(&program, &options, &watch).map(|lines| svg(&lines, &slice, &options).into_bytes())
-    } else {
-        slice.picture(&program, &options, &watch).map(|rendered| encoded(&rendered, format))
+    let drawn = match format {
+        Some(format) => slice.picture(&program, &options, &watch).map(|rendered| Drawn::Picture(rendered, format)),
+        None => slice.lines(&program, &options, &watch).map(Drawn::Lines),
     };
     watch.bar.finish_and_clear();
-    let bytes = drawn.map_err(cannot_render)?;
+    let bytes = match drawn.map_err(cannot_render)? {
+        Drawn::Picture(rendered, format) => format
+            .encode(&rendered, &Picture::default(), Compression::Quick)
+            .map_err(|error| Failure::Input(error.to_string()))?,
+        Drawn::Lines(lines) => svg(&lines, &slice, &options).into_bytes(),
+    };
     if interrupt.is_requested() {
         return Err(Failure::Interrupted);
     }
@@ -148,9 +150,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-fn encoded(rendered: &Rendered, format: Option<Format>) -> Vec<u8> {
-    let format = format.unwrap_or(Format::Png);
-    format.encode(rendered, &Picture::default(), Compression::Quick).unwrap_or_default()
+/// What comes of a slice.
+enum Drawn {
+    /// A picture, and the kind of file it is for.
+    Picture(Rendered, Format),
+    /// The lines at each value.
+    Lines(Vec<(f64, Vec<Isoline>)>),
 }
 
 /// The picture of a scene of plane figures.
@@ -158,12 +163,10 @@ pub(super) fn picture_of_figures(
     scene: &Scene,
     options: &Options,
     progress: &dyn Progress,
-) -> Result<Rendered, RenderError> {
+) -> Result<Rendered, Failure> {
     let plane = Plane { axis: Axis::Z, at: 0.0, middle: None, span: None };
-    match cut(scene, &plane, options, Show::Distance, None) {
-        Ok((program, slice)) => slice.picture(&program, options, progress),
-        Err(_) => Err(RenderError::Memory),
-    }
+    let (program, slice) = cut(scene, &plane, options, Show::Distance, None)?;
+    slice.picture(&program, options, progress).map_err(cannot_render)
 }
 
 /// Which part of which plane is seen.

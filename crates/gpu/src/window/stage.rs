@@ -53,7 +53,8 @@ pub(crate) enum StageError {
 }
 
 impl Stage {
-    /// Compiles a scene, for a window of some size and with some rays a pixel in the end; samples it before if there is a number of voxels.
+    /// Compiles a scene, for a window of some size and with some rays a pixel in the end; samples it before if there is a number
+    /// of voxels.
     pub(crate) fn new(
         gpu: &Arc<Gpu>,
         scene: Scene,

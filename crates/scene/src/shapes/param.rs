@@ -314,11 +314,12 @@ fn entries<const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::{Notation, ParamKind, Reader};
+    use crate::files::NoFiles;
     use crate::syntax::parse;
     use serde_json::json;
 
     fn read(kind: ParamKind, text: &str) -> Result<Vec<f64>, String> {
-        let mut reader = Reader::new(crate::files::NoFiles);
+        let mut reader = Reader::new(NoFiles);
         let value = parse(text, &mut reader.diagnostics).expect("JSON");
         kind.read(&mut reader, &value).ok_or_else(|| reader.diagnostics[0].message.clone())
     }
