@@ -22,7 +22,7 @@ usage: cargo xtask COMMAND
   test-compilers  the part of it that needs compilers of shaders
   shapes          writes the list of shapes from the files under crates/field/src/shapes
   schema          writes schema/scene.schema.json
-  reference       writes docs/reference/shapes.md
+  reference       writes docs/reference/shapes.md, and gallery/README.md
   gallery         renders all scenes and contact sheets into gallery/
   mutate          changes 50 operators in formulas, one at a time, and counts the changes that tests notice; or
                   mutate COUNT SEED

@@ -1,24 +1,34 @@
-//! The reference pages, which the program writes itself.
+//! The reference page, which the program writes itself, and the page of all its pictures.
 
 use crate::run::{Result, output, root};
+use std::fmt::Write;
 use std::path::Path;
 
 const PAGE: &str = "docs/reference/shapes.md";
 
+const GALLERY: &str = "gallery/README.md";
+
+/// So many pictures stand side by side.
+const IN_A_ROW: usize = 6;
+
 const PROGRAM: [&str; 8] = ["run", "--quiet", "--locked", "-p", "freikugel", "--", "help", "shapes"];
 
-/// Writes the page.
+/// Writes both pages.
 pub(crate) fn write(root: &Path) -> Result {
-    let path = root.join(PAGE);
-    std::fs::write(&path, page(root)?).map_err(|e| format!("can't write {}: {e}", path.display()))
+    for (path, text) in pages(root)? {
+        std::fs::write(root.join(path), text).map_err(|e| format!("can't write {path}: {e}"))?;
+    }
+    Ok(())
 }
 
-/// Fails if the page is not what [`write()`] would write, or a shape has no picture.
+/// Fails if the pages are not what [`write()`] would write, or a shape has no picture.
 pub(crate) fn check() -> Result {
     let root = root();
-    let present = std::fs::read_to_string(root.join(PAGE)).map_err(|e| format!("can't read {PAGE}: {e}"))?;
-    if present != page(&root)? {
-        return Err(format!("{PAGE} is out of date; run `cargo xtask reference`"));
+    for (path, text) in pages(&root)? {
+        let present = std::fs::read_to_string(root.join(path)).map_err(|e| format!("can't read {path}: {e}"))?;
+        if present != text {
+            return Err(format!("{path} is out of date; run `cargo xtask reference`"));
+        }
     }
     let picture = |name: &String| root.join("gallery/reference").join(name).with_extension("png");
     match names(&root)?.into_iter().find(|name| !picture(name).is_file()) {
@@ -27,8 +37,31 @@ pub(crate) fn check() -> Result {
     }
 }
 
-fn page(root: &Path) -> Result<String> {
-    output(root, "cargo", &[&PROGRAM[..], &["--markdown"]].concat())
+/// The paths of both pages, and what they should hold.
+fn pages(root: &Path) -> Result<[(&'static str, String); 2]> {
+    let page = output(root, "cargo", &[&PROGRAM[..], &["--markdown"]].concat())?;
+    let gallery = gallery(&page);
+    Ok([(PAGE, page), (GALLERY, gallery)])
+}
+
+/// The pictures of all shapes of the reference, in its groups.
+fn gallery(page: &str) -> String {
+    let mut text = String::from(
+        "# Gallery\n\nA picture of each shape; they lead to the [reference](../docs/reference/shapes.md). Pictures of scenes are in \
+         the other folders here. Written by `cargo xtask reference`.\n",
+    );
+    for group in page.split("\n## ").skip(1) {
+        let _ = write!(text, "\n## {}\n\n", group.lines().next().unwrap_or_default());
+        text.push_str(&format!("{}|\n{}|\n", "| ".repeat(IN_A_ROW), "|---".repeat(IN_A_ROW)));
+        let names: Vec<&str> = group.lines().filter_map(|line| line.strip_prefix("### ")).collect();
+        for row in names.chunks(IN_A_ROW) {
+            for name in row {
+                let _ = write!(text, "| [![](reference/{name}.png)<br>{name}](../{PAGE}#{name}) ");
+            }
+            text.push_str("|\n");
+        }
+    }
+    text
 }
 
 /// The names of all shapes.
