@@ -48,6 +48,7 @@ pub mod intersection;
 pub mod lens;
 pub mod link;
 pub mod mandelbulb;
+pub mod matrix;
 pub mod moon;
 pub mod morph;
 pub mod octahedron;
@@ -156,6 +157,7 @@ pub use intersection::*;
 pub use lens::*;
 pub use link::*;
 pub use mandelbulb::*;
+pub use matrix::*;
 pub use moon::*;
 pub use morph::*;
 pub use octahedron::*;
@@ -273,6 +275,7 @@ pub static ALL: &[&Shape] = &[
     &LENS,
     &LINK,
     &MANDELBULB,
+    &MATRIX,
     &MOON,
     &MORPH,
     &OCTAHEDRON,

@@ -497,3 +497,49 @@ fn curves_that_are_none_are_refused() {
         assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{message}: {diagnostics:?}");
     }
 }
+
+#[test]
+fn matrices_do_what_other_maps_do() {
+    let child = || cuboid([0.9, 0.5, 0.7]).at([0.2, 0.1, 0.0]);
+    let turn = glam::DMat3::from_axis_angle(DVec3::new(1.0, 2.0, 0.5).normalize(), 0.6);
+    let rows = |matrix: glam::DMat3| matrix.transpose().to_cols_array_2d();
+    let mut random = Random::new(27);
+    for (name, made, known) in [
+        (
+            "a similarity",
+            child().matrix(rows(turn * 1.5)).with("by", &[0.1, -0.2, 0.3].map(Into::into)),
+            child().rotate([1.0, 2.0, 0.5], 0.6f64.to_degrees()).scale(1.5).at([0.1, -0.2, 0.3]),
+        ),
+        (
+            "a mirror",
+            child().matrix([[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+            child().reflect([1.0, 0.0, 0.0]),
+        ),
+        (
+            "stretches",
+            child().matrix([[1.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 2.0]]),
+            child().stretch([1.5, 0.5, 2.0]),
+        ),
+        ("a shear", child().matrix([[1.0, 0.0, 0.7], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]), child().shear("xz", 0.7)),
+    ] {
+        let contract = |field: &Field| analyse(field).0.expect("sound").contract;
+        assert_eq!(contract(&made), contract(&known), "{name}");
+        let (one, other) = (program(&made), program(&known));
+        for p in (0..300).map(|_| random.point(1.6)) {
+            let (found, expected) = (one.value(p), other.value(p));
+            assert!((found - expected).abs() < ROUNDING, "{name} at {p}: {found}, not {expected}");
+        }
+    }
+    // A figure stays one in its plane.
+    let (half, root) = (0.5, 0.75f64.sqrt());
+    assert!(
+        analyse(&circle(1.0).matrix([[half, -root, 0.0], [root, half, 0.0], [0.0, 0.0, 1.0]]).extrude(1.0)).0.is_some()
+    );
+    for (rows, message) in [
+        ([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]], "`rows` of `matrix` must not be singular"),
+        ([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1e-14]], "`rows` of `matrix` must not be singular"),
+    ] {
+        let (analysis, diagnostics) = analyse(&child().matrix(rows));
+        assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{diagnostics:?}");
+    }
+}

@@ -91,6 +91,13 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
         ParamKind::Counts(least, _) => (0..3).for_each(|_| push(f64::from(least) + random.below(3) as f64)),
         ParamKind::Size2 => (0..2).for_each(|_| push(random.range(0.3, 2.0))),
         ParamKind::Factors => (0..3).for_each(|_| push(sign * random.range(0.5, 2.0))),
+        ParamKind::Matrix => {
+            let (turn, other) = (random.direction(), random.direction());
+            let [turn, other] = [turn, other].map(|axis| DMat3::from_axis_angle(axis, random.range(0.0, 3.0)));
+            let [x, y, z] = [0, 1, 2].map(|_| random.range(0.5, 2.0));
+            let matrix = turn * DMat3::from_diagonal(DVec3::new(sign * x, y, z)) * other;
+            matrix.transpose().to_cols_array().into_iter().for_each(push);
+        }
         ParamKind::Angles => (0..3).for_each(|_| push(random.range(-4.0, 4.0))),
         ParamKind::Quaternion => (0..4).for_each(|_| push(random.range(-1.0, 1.0))),
         ParamKind::Quadruple => (0..4).for_each(|_| push(random.range(-0.6, 0.6))),
@@ -132,8 +139,8 @@ fn call_in(dimension: Dimension, shape: &'static Shape, depth: u32, random: &mut
     for _ in 0..1000 {
         let mut args = Vec::new();
         for param in shape.about.params {
-            if param.name == "order" && param.kind == ParamKind::Positive {
-                // Of a polynomial; any number above 1.
+            if ["order", "exponent"].contains(&param.name) && param.kind == ParamKind::Positive {
+                // Of a polynomial, which is any number above 1, or of a superellipse.
                 args.push(random.range(1.2, 4.0).into());
                 continue;
             }
@@ -283,6 +290,16 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             }
             at(low) < 0.0
         }
+        ("ellipse", [x, y]) => (p.x / x).powi(2) + (p.y / y).powi(2) < 1.0,
+        ("parabola", [width, height]) => {
+            p.y < height / 2.0 && p.y + height / 2.0 > height * (2.0 * p.x / width).powi(2)
+        }
+        ("hyperbola", [width, height, radius]) => {
+            // y^2 / a^2 - x^2 / b^2 > 1 beyond the centre, by the radius b^2 / a and the upper corners.
+            let (v, half) = (p.y + height / 2.0, width / 2.0);
+            let bend = (half * half / radius - 2.0 * height) / (height * height);
+            v > 0.0 && v < *height && 2.0 * v + bend * v * v > p.x * p.x / radius
+        }
         ("heart", [width]) => {
             // In units of the square's side, from its lower corner, along two of its sides.
             let side = width / (1.0 + 0.5_f64.sqrt());
@@ -412,7 +429,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         ("extrude", [height, round]) if *round == 0.0 => contains(children.next()?, p)? && p.z.abs() < height / 2.0,
         ("extrude", _) => return None,
         ("revolve", [offset]) => contains(children.next()?, DVec3::new(across - offset, p.z, 0.0))?,
-        ("repeat" | "repeat_polar", _) => {
+        ("repeat" | "repeat_polar" | "repeat_varied", _) => {
             all(freikugel_field::copies(field)?.iter().map(|copy| contains(copy, p)))?.into_iter().any(|copy| copy)
         }
         ("repeat_mirrored", spacing) => {
@@ -437,7 +454,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             contains(children.next()?, p - p.clamp(-half, half))?
         }
         ("plane", [x, y, z, d]) => DVec3::new(*x, *y, *z).normalize().dot(p) < *d,
-        ("sheet", _) => return None,
+        ("sheet" | "disc" | "triangle" | "quad", _) => return None,
         ("box", [x, y, z, round]) => {
             let core = DVec3::new(*x, *y, *z) / 2.0 - *round;
             let nearest = p.clamp(-core, core);
@@ -512,6 +529,13 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             q[moved] -= by * p[with];
             contains(children.next()?, q)?
         }
+        ("matrix", args) => {
+            // By Cramer's rule.
+            let [a, b, c] = [0, 3, 6].map(|at| DVec3::from_slice(&args[at..]));
+            let volume = a.dot(b.cross(c));
+            let q = p - DVec3::from_slice(&args[9..]);
+            contains(children.next()?, (b.cross(c) * q.x + c.cross(a) * q.y + a.cross(b) * q.z) / volume)?
+        }
         ("align", args) => {
             // Two half turns about the new direction, and the middle between both, make the turn.
             let (from, to) = (DVec3::from_slice(args).normalize(), DVec3::from_slice(&args[3..]).normalize());
@@ -532,6 +556,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         }
         // Tested by themselves: what is inside, their own curves say.
         ("text" | "svg_path" | "bezier" | "b_spline" | "spline", _) => return None,
+        ("superellipse" | "gear" | "spiral", _) => return None,
         (name, _) if is_blend(name) || is_carved(name) => return None,
         (name, args) => panic!("say in the membership test what lies inside {name} with {} numbers", args.len()),
     })
@@ -593,7 +618,7 @@ fn winds_around(corners: &[f64], p: DVec3) -> bool {
 
 /// Whether a shape is the union, intersection or difference of a family of blends.
 pub(crate) fn is_blend(name: &str) -> bool {
-    let families = ["round", "chamfer", "exponential", "polynomial", "stairs", "root"];
+    let families = ["round", "chamfer", "exponential", "polynomial", "stairs", "columns", "root"];
     let operators = ["union", "intersection", "difference"];
     name.split_once('_').is_some_and(|(family, operator)| families.contains(&family) && operators.contains(&operator))
 }
