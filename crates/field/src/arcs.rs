@@ -1,4 +1,4 @@
-//! Figures bounded by Bézier curves as lines of straight edges and arcs.
+//! Figures bounded by Bézier curves, and by others with known directions, as lines of straight edges and arcs.
 //!
 //! A curve is split until each piece is as near to a biarc, two arcs that go over into one another with the curve's directions at
 //! both ends, as is asked for (Bolton, "Biarc curves", 1975). Errors fall with the cube of the pieces' length, so that few arcs do.
@@ -13,6 +13,9 @@ const PLACES: u32 = 7;
 
 /// An arc that turns by less is a straight edge.
 const STRAIGHT: f64 = 1e-9;
+
+/// A curve: its point at a parameter, and its direction there.
+pub(crate) type Curve<'a> = &'a dyn Fn(f64) -> (DVec2, DVec2);
 
 /// Closed lines under construction, in the form of the arguments of an outline.
 #[derive(Debug)]
@@ -58,6 +61,18 @@ impl Lines {
         self.at = to;
     }
 
+    /// An arc that turns to the left by this angle.
+    pub(crate) fn arc_to(&mut self, to: DVec2, turn: f64) {
+        self.corners.push([self.at.x, self.at.y, turn]);
+        self.at = to;
+    }
+
+    /// A smooth curve, along its parameter from one value to another. Its directions, of any length but 0, are those in which it is drawn.
+    pub(crate) fn follow(&mut self, curve: Curve<'_>, [from, to]: [f64; 2]) {
+        self.stretch(curve, [from, to], DEEPEST);
+        self.at = curve(to).0;
+    }
+
     /// Closes the line that is being drawn.
     pub(crate) fn close(&mut self) {
         self.line_to(self.start);
@@ -78,9 +93,14 @@ impl Lines {
         self.arguments
     }
 
+    /// The corners of the line that is being drawn, which stays open, and its end.
+    pub(crate) fn open(self) -> (Vec<[f64; 3]>, DVec2) {
+        (self.corners, self.at)
+    }
+
     fn piece(&mut self, curve: [DVec2; 4], depth: u32) {
         let [a, .., d] = curve;
-        let Some(arcs) = biarc(curve) else {
+        let Some(arcs) = biarc_of(curve) else {
             // All of it is one point, or the directions at its ends say nothing.
             match depth {
                 0 => self.corners.extend((a != d).then_some([a.x, a.y, 0.0])),
@@ -89,19 +109,44 @@ impl Lines {
             }
             return;
         };
+        if depth == 0 || self.fits(&arcs, |share| at(curve, share)) {
+            self.push(&arcs);
+        } else {
+            self.halves(curve, depth);
+        }
+    }
+
+    /// A part of a curve: two arcs, or those of its halves.
+    fn stretch(&mut self, curve: Curve<'_>, [low, high]: [f64; 2], depth: u32) {
+        let ((from, first), (to, last)) = (curve(low), curve(high));
+        let arcs = biarc([from, to], [first.normalize(), last.normalize()]);
+        match arcs {
+            Some(arcs) if depth == 0 || self.fits(&arcs, |share| curve(low + (high - low) * share).0) => {
+                self.push(&arcs)
+            }
+            None if depth == 0 => self.corners.push([from.x, from.y, 0.0]),
+            _ => {
+                let middle = (low + high) / 2.0;
+                self.stretch(curve, [low, middle], depth - 1);
+                self.stretch(curve, [middle, high], depth - 1);
+            }
+        }
+    }
+
+    /// Whether arcs are near enough to the curve that they stand for.
+    fn fits(&self, arcs: &[Arc], point: impl Fn(f64) -> DVec2) -> bool {
         let is_near = (1..=PLACES).all(|place| {
-            let point = at(curve, f64::from(place) / f64::from(PLACES + 1));
+            let point = point(f64::from(place) / f64::from(PLACES + 1));
             arcs.iter().map(|arc| arc.distance(point)).fold(f64::INFINITY, f64::min) <= self.tolerance
         });
         // No single arc goes far around, so that none is taken for the other way round.
-        let is_tame = arcs.iter().all(|arc| arc.turn.abs() < std::f64::consts::FRAC_PI_2 * 1.01);
-        if depth == 0 || (is_near && is_tame) {
-            for arc in arcs.iter().filter(|arc| arc.from != arc.to) {
-                let turn = if arc.turn.abs() < STRAIGHT { 0.0 } else { arc.turn };
-                self.corners.push([arc.from.x, arc.from.y, turn]);
-            }
-        } else {
-            self.halves(curve, depth);
+        is_near && arcs.iter().all(|arc| arc.turn.abs() < std::f64::consts::FRAC_PI_2 * 1.01)
+    }
+
+    fn push(&mut self, arcs: &[Arc]) {
+        for arc in arcs.iter().filter(|arc| arc.from != arc.to) {
+            let turn = if arc.turn.abs() < STRAIGHT { 0.0 } else { arc.turn };
+            self.corners.push([arc.from.x, arc.from.y, turn]);
         }
     }
 
@@ -150,10 +195,14 @@ impl Arc {
     }
 }
 
-/// Two arcs with the directions of a curve at its ends, of which both start equally far from where they meet along these.
-fn biarc([a, b, c, d]: [DVec2; 4]) -> Option<[Arc; 2]> {
+/// The biarc of a Bézier curve, if it has directions at its ends.
+fn biarc_of([a, b, c, d]: [DVec2; 4]) -> Option<[Arc; 2]> {
     let direction = |ways: [DVec2; 3]| ways.into_iter().find(|way| *way != DVec2::ZERO).map(DVec2::normalize);
-    let (first, last) = (direction([b - a, c - a, d - a])?, direction([d - c, d - b, d - a])?);
+    biarc([a, d], [direction([b - a, c - a, d - a])?, direction([d - c, d - b, d - a])?])
+}
+
+/// Two arcs between points with these directions there, of length 1. Both start equally far from where they meet along these.
+fn biarc([a, d]: [DVec2; 2], [first, last]: [DVec2; 2]) -> Option<[Arc; 2]> {
     let (chord, sum) = (d - a, first + last);
     let (product, opening) = (chord.dot(sum), 2.0 * (1.0 - first.dot(last)));
     let length = if opening < STRAIGHT {

@@ -1,7 +1,7 @@
 //! Curves in space as chains of circular arcs, by biarcs as in the plane (see `arcs.rs`): each arc lies in a plane of its own.
 
 use crate::curve::Bezier;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// Pieces of a curve are halved at most so often.
 const DEEPEST: u32 = 12;
@@ -30,6 +30,12 @@ impl Arc3 {
     /// A straight edge; the points may be the same.
     pub(crate) fn straight(from: DVec3, to: DVec3) -> Self {
         Self { from, to, direction: (to - from).normalize_or(DVec3::X) }
+    }
+
+    /// An arc in the plane of x and y that turns to the left by an angle, 0 for a straight edge.
+    pub(crate) fn flat(from: DVec2, to: DVec2, turn: f64) -> Self {
+        let direction = DVec2::from_angle(-turn / 2.0).rotate((to - from).normalize_or(DVec2::X));
+        Self { from: from.extend(0.0), to: to.extend(0.0), direction: direction.extend(0.0) }
     }
 
     /// Direction of the chord, that across it towards the arc, and half of the angle that it turns by.

@@ -32,6 +32,7 @@ pub mod difference;
 pub mod displace;
 pub mod dodecahedron;
 pub mod egg;
+pub mod ellipse;
 pub mod ellipsoid;
 pub mod ellipsoid_bound;
 pub mod elongate;
@@ -40,9 +41,11 @@ mod escape;
 pub mod exponential;
 pub mod extrude;
 pub mod formula;
+pub mod gear;
 pub mod groove;
 pub mod heart;
 pub mod horseshoe;
+pub mod hyperbola;
 pub mod icosahedron;
 pub mod intersection;
 pub mod lens;
@@ -55,6 +58,7 @@ pub mod octahedron;
 pub mod offset;
 pub mod outline;
 pub mod paint;
+pub mod parabola;
 pub mod parallelogram;
 pub mod pipe;
 pub mod plane;
@@ -90,11 +94,13 @@ pub mod smooth_intersection;
 pub mod smooth_union;
 pub mod solid_angle;
 pub mod sphere;
+pub mod spiral;
 pub mod spline;
 pub mod staircase;
 pub mod stairs;
 pub mod star;
 pub mod stretch;
+pub mod superellipse;
 pub mod svg_path;
 pub mod swirl;
 pub mod symmetry;
@@ -142,6 +148,7 @@ pub use difference::*;
 pub use displace::*;
 pub use dodecahedron::*;
 pub use egg::*;
+pub use ellipse::*;
 pub use ellipsoid::*;
 pub use ellipsoid_bound::*;
 pub use elongate::*;
@@ -149,9 +156,11 @@ pub use engrave::*;
 pub use exponential::*;
 pub use extrude::*;
 pub use formula::*;
+pub use gear::*;
 pub use groove::*;
 pub use heart::*;
 pub use horseshoe::*;
+pub use hyperbola::*;
 pub use icosahedron::*;
 pub use intersection::*;
 pub use lens::*;
@@ -164,6 +173,7 @@ pub use octahedron::*;
 pub use offset::*;
 pub use outline::*;
 pub use paint::*;
+pub use parabola::*;
 pub use parallelogram::*;
 pub use pipe::*;
 pub use plane::*;
@@ -198,11 +208,13 @@ pub use smooth_intersection::*;
 pub use smooth_union::*;
 pub use solid_angle::*;
 pub use sphere::*;
+pub use spiral::*;
 pub use spline::*;
 pub use staircase::*;
 pub use stairs::*;
 pub use star::*;
 pub use stretch::*;
+pub use superellipse::*;
 pub use svg_path::*;
 pub use swirl::*;
 pub use symmetry::*;
@@ -258,6 +270,7 @@ pub static ALL: &[&Shape] = &[
     &DISPLACE,
     &DODECAHEDRON,
     &EGG,
+    &ELLIPSE,
     &ELLIPSOID,
     &ELLIPSOID_BOUND,
     &ELONGATE,
@@ -267,9 +280,11 @@ pub static ALL: &[&Shape] = &[
     &EXPONENTIAL_DIFFERENCE,
     &EXTRUDE,
     &FORMULA,
+    &GEAR,
     &GROOVE,
     &HEART,
     &HORSESHOE,
+    &HYPERBOLA,
     &ICOSAHEDRON,
     &INTERSECTION,
     &LENS,
@@ -282,6 +297,7 @@ pub static ALL: &[&Shape] = &[
     &OFFSET,
     &OUTLINE,
     &PAINT,
+    &PARABOLA,
     &PARALLELOGRAM,
     &PIPE,
     &PLANE,
@@ -320,6 +336,7 @@ pub static ALL: &[&Shape] = &[
     &SMOOTH_UNION,
     &SOLID_ANGLE,
     &SPHERE,
+    &SPIRAL,
     &SPLINE,
     &STAIRCASE,
     &STAIRS_UNION,
@@ -327,6 +344,7 @@ pub static ALL: &[&Shape] = &[
     &STAIRS_DIFFERENCE,
     &STAR,
     &STRETCH,
+    &SUPERELLIPSE,
     &SVG_PATH,
     &SWIRL,
     &SYMMETRY,

@@ -498,6 +498,154 @@ fn curves_that_are_none_are_refused() {
     }
 }
 
+/// A point of the plane as one of space.
+fn flat(x: f64, y: f64) -> DVec3 {
+    DVec3::new(x, y, 0.0)
+}
+
+/// The distance from the nearest of some points that lie close together along a line.
+fn nearest(points: &[DVec3], p: DVec3) -> f64 {
+    points.iter().map(|q| q.distance_squared(p)).fold(f64::INFINITY, f64::min).sqrt()
+}
+
+#[test]
+fn conics_are_as_far_as_the_nearest_of_their_points() {
+    /// So many points lie along the branch and on the chord.
+    const STEPS: u32 = 20_000;
+    let mut random = Random::new(23);
+    let limit = |width: f64, height: f64| width * width / (8.0 * height);
+    for (width, height) in [(1.0, 1.0), (2.0, 0.1), (0.2, 1.8)] {
+        for share in [1.0, 1.0 - 1e-9, 1.0 - 1e-4, 0.9, 0.5, 0.1, 1e-3] {
+            let radius = share * limit(width, height);
+            let program = program(&hyperbola(width, height, radius).into());
+            let (half, bend) = (width / 2.0, (width * width / (4.0 * radius) - 2.0 * height) / (height * height));
+            // x^2 = radius (2 v + bend v^2), v being the height above the vertex.
+            let branch = (0..=STEPS).map(|step| {
+                let v = height * (f64::from(step) / f64::from(STEPS)).powi(2);
+                flat((radius * (2.0 * v + bend * v * v)).sqrt(), v - height / 2.0)
+            });
+            let chord = (0..=STEPS).map(|step| flat(half * f64::from(step) / f64::from(STEPS), height / 2.0));
+            let edge: Vec<DVec3> = branch.chain(chord).collect();
+            for _ in 0..40 {
+                let p = random.point(1.5) * DVec3::new(1.0, 1.0, 0.0);
+                let (found, known) = (program.value(p), nearest(&edge, p.abs().with_y(p.y)));
+                let error = found.abs() - known;
+                // The nearest of these points is within half a step of the foot point.
+                let step = 2.0 * (width + height) / f64::from(STEPS);
+                assert!(error < ROUNDING && error > -step, "{width} {height} {share} at {p}: {found}, not {known}");
+                assert!(
+                    known < 1e-2 || error > -step * step / known,
+                    "{width} {height} {share} at {p}: {found}, {known}"
+                );
+                let v = p.y + height / 2.0;
+                let is_inside = v > 0.0 && v < height && p.x * p.x < radius * (2.0 * v + bend * v * v);
+                assert!((found < 0.0) == is_inside, "{width} {height} {share} at {p}: {found}");
+            }
+        }
+    }
+}
+
+#[test]
+fn superellipses_are_as_far_as_the_nearest_of_their_points() {
+    const STEPS: u32 = 20_000;
+    let mut random = Random::new(24);
+    for (x, y) in [(1.0, 1.0), (1.2, 0.4), (0.3, 1.0)] {
+        let tolerance = 1.5e-4 * f64::min(x, y);
+        for exponent in [0.3, 0.7, 1.0, 1.4, 2.0, 2.5, 4.0, 9.0, 60.0] {
+            let program = program(&superellipse(x, y, exponent).into());
+            let power = |base: f64| base.powf(2.0 / exponent);
+            let curve: Vec<DVec3> = (0..=STEPS)
+                .map(|step| (std::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(STEPS)).sin_cos())
+                .map(|(sin, cos)| flat(x * power(cos), y * power(sin)))
+                .chain([flat(0.0, y)])
+                .collect();
+            // Where the curve's points lie far apart, all between two of them is near the straight edge that joins them.
+            let gap = |p: DVec3| {
+                let to_edge = |pair: &[DVec3]| {
+                    let (a, along) = (pair[0], pair[1] - pair[0]);
+                    let share = (p - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
+                    p.distance(a + along * share.clamp(0.0, 1.0))
+                };
+                curve.windows(2).map(to_edge).fold(f64::INFINITY, f64::min)
+            };
+            for _ in 0..25 {
+                let p = random.point(1.5) * DVec3::new(1.0, 1.0, 0.0);
+                let (found, known) = (program.value(p), gap(p.abs()));
+                assert!((found.abs() - known).abs() < tolerance, "{x} {y} {exponent} at {p}: {found}, not {known}");
+                let size = (p.x / x).abs().powf(exponent) + (p.y / y).abs().powf(exponent);
+                assert!(known < tolerance || (found < 0.0) == (size < 1.0), "{x} {y} {exponent} at {p}: {found}");
+            }
+        }
+    }
+}
+
+#[test]
+fn gears_mesh() {
+    // With so many teeth no tip reaches a foot that has not been cut back.
+    const TEETH: [u32; 2] = [20, 31];
+    const MODULE: f64 = 0.1;
+    const STEPS: u32 = 120;
+    let tolerance = 2.5e-3 * MODULE;
+    let [radius, other] = TEETH.map(|teeth| f64::from(teeth) * MODULE / 2.0);
+    for pressure in [20.0f64, 22.5, 25.0] {
+        let gear = |teeth: u32| gear(teeth, MODULE).with("pressure_angle", &[pressure.to_radians().into()]);
+        for turn in [0.0, 1.0, 2.5, 4.0, 7.3, 11.0] {
+            // The first one's tooth on the y axis turns into the other one's gap, to the right of it.
+            let driver = program(&gear(TEETH[0]).rotate([0.0, 0.0, 1.0], turn - 90.0));
+            let back = 90.0 + 180.0 / f64::from(TEETH[1]) - turn * radius / other;
+            let driven = program(&gear(TEETH[1]).rotate([0.0, 0.0, 1.0], back).at([radius + other, 0.0, 0.0]));
+            let mut deepest = f64::INFINITY;
+            for (i, j) in (0..=STEPS).flat_map(|i| (0..=STEPS).map(move |j| (i, j))) {
+                let place = |step: u32, reach: f64| reach * (2.0 * f64::from(step) / f64::from(STEPS) - 1.0);
+                let p = flat(radius + place(i, 1.2 * MODULE), place(j, 4.0 * MODULE));
+                deepest = deepest.min(driver.value(p).max(driven.value(p)));
+            }
+            // They touch, and nowhere overlap.
+            assert!(deepest > -tolerance, "{pressure} {turn}: {deepest} deep");
+            assert!(deepest < 8.0 * MODULE / f64::from(STEPS), "{pressure} {turn}: {deepest} apart");
+        }
+    }
+    // Teeth and gaps are equally wide on the pitch circle; tips and feet lie where they should.
+    let program = program(&gear(24, MODULE).into());
+    let at = |radius: f64, angle: f64| program.value(flat(radius * angle.sin(), radius * angle.cos()));
+    let (pitch, step) = (1.2, std::f64::consts::PI / 24.0);
+    for tooth in 0..24 {
+        let middle = 2.0 * step * f64::from(tooth);
+        assert!(at(pitch, middle + step / 2.0).abs() < tolerance && at(pitch, middle - step / 2.0).abs() < tolerance);
+        assert!(
+            at(pitch + MODULE, middle).abs() < ROUNDING && at(pitch - 1.25 * MODULE, middle + step).abs() < ROUNDING
+        );
+    }
+}
+
+#[test]
+fn spirals_are_as_far_as_the_nearest_of_their_points() {
+    const STEPS: u32 = 40_000;
+    let mut random = Random::new(25);
+    for (width, spacing, turns, inner) in
+        [(0.1, 0.3, 4.0, 0.0), (0.05, 0.5, 2.3, 0.2), (0.2, 0.1, 0.4, 0.7), (0.1, 0.2, 6.0, 0.05)]
+    {
+        let field: Field = spiral(width, spacing, turns).with("inner", &[inner.into()]).into();
+        let program = program(&field);
+        let curve: Vec<DVec3> = (0..=STEPS)
+            .map(|step| turns * f64::from(step) / f64::from(STEPS))
+            .map(|turn| (inner + spacing * turn, (std::f64::consts::TAU * turn).sin_cos()))
+            .map(|(radius, (sin, cos))| flat(radius * cos, radius * sin))
+            .collect();
+        let Extent::Finite(aabb) = extent(&field.clone().extrude(1.0)) else { panic!("a spiral is finite") };
+        let tolerance = 2e-3 * width;
+        for p in &curve {
+            let reach = DVec3::new(width, width, 0.0) / 2.0 - tolerance;
+            assert!((*p - reach).cmpge(aabb.min).all() && (*p + reach).cmple(aabb.max).all());
+        }
+        for _ in 0..200 {
+            let p = random.point(1.5) * DVec3::new(1.0, 1.0, 0.0);
+            let (found, known) = (program.value(p), nearest(&curve, p) - width / 2.0);
+            assert!((found - known).abs() < tolerance, "{width} {spacing} {turns} at {p}: {found}, not {known}");
+        }
+    }
+}
+
 #[test]
 fn matrices_do_what_other_maps_do() {
     let child = || cuboid([0.9, 0.5, 0.7]).at([0.2, 0.1, 0.0]);
