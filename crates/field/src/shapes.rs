@@ -29,6 +29,7 @@ pub mod curl;
 pub mod cut_sphere;
 pub mod cylinder;
 pub mod difference;
+pub mod disc;
 pub mod displace;
 pub mod dodecahedron;
 pub mod egg;
@@ -66,6 +67,7 @@ pub mod polygon;
 pub mod polyline;
 mod polynomial;
 pub mod pyramid;
+pub mod quad;
 pub mod quaternion_julia;
 pub mod rectangle;
 pub mod reflect;
@@ -111,6 +113,7 @@ pub mod tongue;
 pub mod torus;
 pub mod translate;
 pub mod trapezoid;
+pub mod triangle;
 pub mod truncated_octahedron;
 pub mod tube;
 pub mod twist;
@@ -145,6 +148,7 @@ pub use curl::*;
 pub use cut_sphere::*;
 pub use cylinder::*;
 pub use difference::*;
+pub use disc::*;
 pub use displace::*;
 pub use dodecahedron::*;
 pub use egg::*;
@@ -180,6 +184,7 @@ pub use plane::*;
 pub use polygon::*;
 pub use polyline::*;
 pub use pyramid::*;
+pub use quad::*;
 pub use quaternion_julia::*;
 pub use rectangle::*;
 pub use reflect::*;
@@ -225,6 +230,7 @@ pub use tongue::*;
 pub use torus::*;
 pub use translate::*;
 pub use trapezoid::*;
+pub use triangle::*;
 pub use truncated_octahedron::*;
 pub use tube::*;
 pub use twist::*;
@@ -267,6 +273,7 @@ pub static ALL: &[&Shape] = &[
     &CUT_SPHERE,
     &CYLINDER,
     &DIFFERENCE,
+    &DISC,
     &DISPLACE,
     &DODECAHEDRON,
     &EGG,
@@ -304,6 +311,7 @@ pub static ALL: &[&Shape] = &[
     &POLYGON,
     &POLYLINE,
     &PYRAMID,
+    &QUAD,
     &QUATERNION_JULIA,
     &RECTANGLE,
     &REFLECT,
@@ -355,6 +363,7 @@ pub static ALL: &[&Shape] = &[
     &TORUS,
     &TRANSLATE,
     &TRAPEZOID,
+    &TRIANGLE,
     &TRUNCATED_OCTAHEDRON,
     &TUBE,
     &TWIST,

@@ -647,6 +647,48 @@ fn spirals_are_as_far_as_the_nearest_of_their_points() {
 }
 
 #[test]
+fn sheets_are_the_thinnest_of_bodies() {
+    // As thin as bodies get without being nothing.
+    const THIN: f64 = 1e-12;
+    let corners = [[0.2, -0.4, 0.1], [0.9, 0.3, -0.5], [-0.6, 0.5, 0.3]];
+    let [a, b, c] = corners.map(DVec3::from_array);
+    let (u, w) = ((b - a).normalize(), (b - a).cross(c - a).normalize());
+    let v = w.cross(u);
+    let within = |p: DVec3| [(p - a).dot(u), (p - a).dot(v)];
+    let rows = glam::DMat3::from_cols(u, v, w).transpose().to_cols_array_2d();
+    let placed = polygon([a, b, c].map(within)).extrude(THIN).matrix(rows).at(a.to_array());
+    let mut random = Random::new(26);
+    for (name, sheet, body) in [
+        ("a disc", Field::from(disc(0.7)), Field::from(cylinder(0.7, THIN))),
+        (
+            "a disc along x",
+            disc(0.7).along(freikugel_field::Axis::X).into(),
+            cylinder(0.7, THIN).along(freikugel_field::Axis::X).into(),
+        ),
+        ("a square", quad([-0.5, -0.3, 0.0], [1.0, 0.0, 0.0], [0.0, 0.6, 0.0]).into(), cuboid([1.0, 0.6, THIN]).into()),
+        ("a triangle", triangle(corners[0], corners[1], corners[2]).into(), placed),
+        (
+            "a leaning parallelogram",
+            quad([-0.5, -0.6, -0.3], [1.0, 0.0, 0.0], [0.2, 0.0, 0.6]).into(),
+            parallelogram(1.0, 0.6, 0.2).extrude(THIN).rotate([1.0, 0.0, 0.0], 90.0).at([0.1, -0.6, 0.0]),
+        ),
+    ] {
+        let contract = analyse(&sheet).0.expect("sound").contract;
+        assert!(!contract.signed && contract.outside == Metric::Exact, "{name}");
+        let (one, other) = (program(&sheet), program(&body));
+        for p in (0..400).map(|_| random.point(1.5)) {
+            let (found, expected) = (one.value(p), other.value(p));
+            assert!((found - expected).abs() < 10.0 * THIN, "{name} at {p}: {found}, not {expected}");
+        }
+        let (Extent::Finite(one), Extent::Finite(other)) = (extent(&sheet), extent(&body)) else {
+            panic!("{name} has an end");
+        };
+        let gap = (one.min - other.min).abs().max((one.max - other.max).abs()).max_element();
+        assert!(gap < 1e-9, "{name}: {one:?}, not {other:?}");
+    }
+}
+
+#[test]
 fn matrices_do_what_other_maps_do() {
     let child = || cuboid([0.9, 0.5, 0.7]).at([0.2, 0.1, 0.0]);
     let turn = glam::DMat3::from_axis_angle(DVec3::new(1.0, 2.0, 0.5).normalize(), 0.6);
@@ -689,5 +731,25 @@ fn matrices_do_what_other_maps_do() {
     ] {
         let (analysis, diagnostics) = analyse(&child().matrix(rows));
         assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{diagnostics:?}");
+    }
+}
+
+#[test]
+fn what_can_be_no_figure_is_refused() {
+    let gear = |teeth: u32, pressure: f64| gear(teeth, 0.1).with("pressure_angle", &[pressure.to_radians().into()]);
+    for (field, message) in [
+        (Field::from(hyperbola(1.0, 1.0, 0.126)), "`radius` of `hyperbola` must not exceed 0.125"),
+        (superellipse(1.0, 1.0, 0.1).into(), "`exponent` of `superellipse` must lie between 0.2 and 100, but is 0.1"),
+        (ellipse(1.0, 1e4).into(), "must not differ by more than a factor of 1000"),
+        (gear(20, 50.0).into(), "must lie between 0 and 35 degrees"),
+        (gear(6, 33.0).into(), "end in points below their full height"),
+        (gear(300, 34.0).into(), "fill the gaps"),
+        (spiral(0.1, 0.2, 101.0).into(), "`turns` of `spiral` must not exceed 100"),
+        (triangle([0.0; 3], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]).into(), "the corners of `triangle` lie on a line"),
+        (quad([0.0; 3], [1.0, 0.0, 1.0], [0.0; 3]).into(), "the edges `u` and `v` of `quad` lie on a line"),
+        (sphere(1.0) - Field::from(disc(0.5)), "a sheet has no inside"),
+    ] {
+        let (analysis, diagnostics) = analyse(&field);
+        assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{message}: {diagnostics:?}");
     }
 }
