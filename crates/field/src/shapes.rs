@@ -19,6 +19,7 @@ pub mod chamfered_box;
 pub mod chamfered_rectangle;
 pub mod circle;
 pub mod circle_segment;
+pub mod columns;
 pub mod complement;
 pub mod cone;
 pub mod convex_polyhedron;
@@ -138,6 +139,7 @@ pub use chamfered_box::*;
 pub use chamfered_rectangle::*;
 pub use circle::*;
 pub use circle_segment::*;
+pub use columns::*;
 pub use complement::*;
 pub use cone::*;
 pub use convex_polyhedron::*;
@@ -263,6 +265,9 @@ pub static ALL: &[&Shape] = &[
     &CHAMFERED_RECTANGLE,
     &CIRCLE,
     &CIRCLE_SEGMENT,
+    &COLUMNS_UNION,
+    &COLUMNS_INTERSECTION,
+    &COLUMNS_DIFFERENCE,
     &COMPLEMENT,
     &CONE,
     &CONVEX_POLYHEDRON,
