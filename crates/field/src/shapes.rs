@@ -76,6 +76,7 @@ pub mod regular_polygon;
 pub mod repeat;
 pub mod repeat_mirrored;
 pub mod repeat_polar;
+pub mod repeat_varied;
 pub mod revolve;
 pub mod rhombus;
 pub mod ring;
@@ -194,6 +195,7 @@ pub use regular_polygon::*;
 pub use repeat::*;
 pub use repeat_mirrored::*;
 pub use repeat_polar::*;
+pub use repeat_varied::*;
 pub use revolve::*;
 pub use rhombus::*;
 pub use ring::*;
@@ -324,6 +326,7 @@ pub static ALL: &[&Shape] = &[
     &REPEAT,
     &REPEAT_MIRRORED,
     &REPEAT_POLAR,
+    &REPEAT_VARIED,
     &REVOLVE,
     &RHOMBUS,
     &RING,

@@ -735,6 +735,55 @@ fn matrices_do_what_other_maps_do() {
 }
 
 #[test]
+fn copies_vary_as_much_as_they_may() {
+    let child = || cuboid([0.3, 0.5, 0.7]).at([0.1, 0.0, 0.2]);
+    let varied = |turn: f64, seed: u32| {
+        let field = child().repeat_varied([1.0, -0.8, 0.5], [3, 4, 2], [0.2, 0.0, 0.1]);
+        field.with("turn", &[turn.to_radians().into()]).with("seed", &[seed.into()])
+    };
+    // As another program computes them.
+    const FIRST: [f64; 4] = [-0.05717914066303953, 0.2955157214705162, -0.9610422413654072, 0.19212035563665286];
+    const LATER: [f64; 4] = [0.08646024760071325, 0.05637860206761336, 0.6901980769836007, 0.7102794933914025];
+    let copies = |field: &Field| freikugel_field::copies(field).expect("copies");
+    for (index, [x, _, z, turn], seed, place) in [(0, FIRST, 0, [-1.0, 1.2, -0.25]), (5, LATER, 7, [1.0, 0.4, -0.25])] {
+        let found = &copies(&varied(30.0, seed))[index];
+        let [px, py, pz] = place;
+        let expected = child().rotate([0.0, 0.0, 1.0], 30.0 * turn).at([px + 0.2 * x, py, pz + 0.1 * z]);
+        let (one, other) = (program(found), program(&expected));
+        let mut random = Random::new(28);
+        for p in (0..100).map(|_| random.point(2.0)) {
+            assert!((one.value(p) - other.value(p)).abs() < ROUNDING, "copy {index} at {p}");
+        }
+    }
+    // Without displacements and turns all is regular.
+    let regular = program(&child().repeat([1.0, -0.8, 0.5], [3, 4, 2]));
+    let still = program(&child().repeat_varied([1.0, -0.8, 0.5], [3, 4, 2], [0.0; 3]));
+    let (one, other) = (program(&varied(30.0, 1)), program(&varied(30.0, 2)));
+    let mut random = Random::new(29);
+    let mut differs = 0;
+    for p in (0..200).map(|_| random.point(2.5)) {
+        assert!((regular.value(p) - still.value(p)).abs() < ROUNDING);
+        differs += usize::from((one.value(p) - other.value(p)).abs() > 1e-3);
+    }
+    assert!(differs > 150, "other seeds, other copies: {differs} of 200");
+    // Over many copies chance is even: as often to either side, and up to the ends.
+    let many = copies(&sphere(0.1).repeat_varied([0.0; 3], [10, 10, 10], [1.0; 3]));
+    let places: Vec<DVec3> = many
+        .iter()
+        .map(|copy| match extent(copy) {
+            Extent::Finite(aabb) => aabb.center(),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    let (mean, square) =
+        (places.iter().sum::<DVec3>() / 1000.0, places.iter().map(|p| *p * *p).sum::<DVec3>() / 1000.0);
+    let most = places.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs()));
+    // Standard deviations of these means are 0.018 and 0.0094.
+    assert!(mean.abs().max_element() < 0.06 && (square - 1.0 / 3.0).abs().max_element() < 0.03, "{mean} {square}");
+    assert!(most.max_element() <= 1.0 + ROUNDING && most.min_element() > 0.98, "{most}");
+}
+
+#[test]
 fn what_can_be_no_figure_is_refused() {
     let gear = |teeth: u32, pressure: f64| gear(teeth, 0.1).with("pressure_angle", &[pressure.to_radians().into()]);
     for (field, message) in [
