@@ -1,8 +1,36 @@
-//! Figures bounded by Bézier curves as lines of straight edges and arcs, which are those of curves in space that stay in the plane.
+//! Figures bounded by Bézier curves, and by others with known directions, as lines of straight edges and arcs, which are those of
+//! curves in space that stay in the plane.
 
-use crate::arcs3::of_curve;
+use crate::arcs3::{Divisible, of_curve};
 use crate::curve::Bezier;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
+
+/// A curve: its point at a parameter, and its direction there.
+pub(crate) type Curve<'a> = &'a dyn Fn(f64) -> (DVec2, DVec2);
+
+/// The part of a curve between two parameters.
+#[derive(Clone)]
+struct Stretch<'a> {
+    curve: Curve<'a>,
+    from: f64,
+    to: f64,
+}
+
+impl Divisible for Stretch<'_> {
+    fn controls(&self) -> Vec<DVec3> {
+        let ((first, start), (last, end)) = ((self.curve)(self.from), (self.curve)(self.to));
+        [first, first + start.normalize(), last - end.normalize(), last].map(|point| point.extend(0.0)).to_vec()
+    }
+
+    fn at(&self, t: f64) -> DVec3 {
+        (self.curve)(self.from + (self.to - self.from) * t).0.extend(0.0)
+    }
+
+    fn halves(&self) -> [Self; 2] {
+        let middle = self.from.midpoint(self.to);
+        [Self { to: middle, ..self.clone() }, Self { from: middle, ..self.clone() }]
+    }
+}
 
 /// Closed lines under construction, in the form of the arguments of an outline.
 #[derive(Debug)]
@@ -46,6 +74,19 @@ impl Lines {
         self.curve_to([first, second, to]);
     }
 
+    /// An arc that turns to the left by this angle.
+    pub(crate) fn arc_to(&mut self, to: DVec2, turn: f64) {
+        self.corners.push([self.at.x, self.at.y, turn]);
+        self.at = to;
+    }
+
+    /// A smooth curve, along its parameter from one value to another. Its directions, of any length but 0, are those in which it is
+    /// drawn.
+    pub(crate) fn follow(&mut self, curve: Curve<'_>, [from, to]: [f64; 2]) {
+        self.arcs(&Stretch { curve, from, to });
+        self.at = curve(to).0;
+    }
+
     /// Closes the line that is being drawn.
     pub(crate) fn close(&mut self) {
         self.line_to(self.start);
@@ -66,10 +107,20 @@ impl Lines {
         self.arguments
     }
 
-    /// A curve with these control points, as arcs in the plane.
+    /// The corners of the line that is being drawn, which stays open, and its end.
+    pub(crate) fn open(self) -> (Vec<[f64; 3]>, DVec2) {
+        (self.corners, self.at)
+    }
+
+    /// A Bézier curve from where the line is, by its other control points.
     fn curve_to<const N: usize>(&mut self, points: [DVec2; N]) {
-        let curve = Bezier::new([self.at].iter().chain(&points).map(|point| point.extend(0.0)).collect());
-        for arc in of_curve(&curve, self.tolerance) {
+        self.arcs(&Bezier::new([self.at].iter().chain(&points).map(|point| point.extend(0.0)).collect()));
+        self.at = points[N - 1];
+    }
+
+    /// The arcs of a curve in the plane.
+    fn arcs<C: Divisible>(&mut self, curve: &C) {
+        for arc in of_curve(curve, self.tolerance) {
             let (from, to) = (arc.from.truncate(), arc.to.truncate());
             if from != to {
                 // An arc to the left of its chord turns to the right.
@@ -78,7 +129,6 @@ impl Lines {
                 self.corners.push([from.x, from.y, if is_left { 0.0 - turn } else { turn }]);
             }
         }
-        self.at = points[N - 1];
     }
 }
 

@@ -17,6 +17,7 @@ mod table;
 mod traits;
 
 pub use param::{AXIS, About, FileParam, Param, ParamKind, SHORTEST_DIRECTION};
+pub(crate) use param::{of_rows, smallest_stretch};
 pub use table::{CombineTable, CopiesTable, MapTable, ModifyTable, PlaceTable, PrimitiveTable};
 pub(crate) use traits::in_plane;
 pub use traits::{

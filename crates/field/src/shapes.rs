@@ -20,6 +20,7 @@ pub mod chamfered_box;
 pub mod chamfered_rectangle;
 pub mod circle;
 pub mod circle_segment;
+pub mod columns;
 pub mod complement;
 pub mod cone;
 pub mod convex_polyhedron;
@@ -30,9 +31,11 @@ pub mod curl;
 pub mod cut_sphere;
 pub mod cylinder;
 pub mod difference;
+pub mod disc;
 pub mod displace;
 pub mod dodecahedron;
 pub mod egg;
+pub mod ellipse;
 pub mod ellipsoid;
 pub mod ellipsoid_bound;
 pub mod elongate;
@@ -41,20 +44,24 @@ mod escape;
 pub mod exponential;
 pub mod extrude;
 pub mod formula;
+pub mod gear;
 pub mod groove;
 pub mod heart;
 pub mod horseshoe;
+pub mod hyperbola;
 pub mod icosahedron;
 pub mod intersection;
 pub mod lens;
 pub mod link;
 pub mod mandelbulb;
+pub mod matrix;
 pub mod moon;
 pub mod morph;
 pub mod octahedron;
 pub mod offset;
 pub mod outline;
 pub mod paint;
+pub mod parabola;
 pub mod parallelogram;
 pub mod pipe;
 pub mod plane;
@@ -62,6 +69,7 @@ pub mod polygon;
 pub mod polyline;
 mod polynomial;
 pub mod pyramid;
+pub mod quad;
 pub mod quaternion_julia;
 pub mod rectangle;
 pub mod reflect;
@@ -69,6 +77,7 @@ pub mod regular_polygon;
 pub mod repeat;
 pub mod repeat_mirrored;
 pub mod repeat_polar;
+pub mod repeat_varied;
 pub mod revolve;
 pub mod rhombus;
 pub mod ring;
@@ -91,11 +100,13 @@ pub mod smooth_intersection;
 pub mod smooth_union;
 pub mod solid_angle;
 pub mod sphere;
+pub mod spiral;
 pub mod spline;
 pub mod staircase;
 pub mod stairs;
 pub mod star;
 pub mod stretch;
+pub mod superellipse;
 pub mod svg;
 pub mod svg_path;
 pub mod swirl;
@@ -107,6 +118,7 @@ pub mod tongue;
 pub mod torus;
 pub mod translate;
 pub mod trapezoid;
+pub mod triangle;
 pub mod truncated_octahedron;
 pub mod tube;
 pub mod twist;
@@ -131,6 +143,7 @@ pub use chamfered_box::*;
 pub use chamfered_rectangle::*;
 pub use circle::*;
 pub use circle_segment::*;
+pub use columns::*;
 pub use complement::*;
 pub use cone::*;
 pub use convex_polyhedron::*;
@@ -141,9 +154,11 @@ pub use curl::*;
 pub use cut_sphere::*;
 pub use cylinder::*;
 pub use difference::*;
+pub use disc::*;
 pub use displace::*;
 pub use dodecahedron::*;
 pub use egg::*;
+pub use ellipse::*;
 pub use ellipsoid::*;
 pub use ellipsoid_bound::*;
 pub use elongate::*;
@@ -151,26 +166,31 @@ pub use engrave::*;
 pub use exponential::*;
 pub use extrude::*;
 pub use formula::*;
+pub use gear::*;
 pub use groove::*;
 pub use heart::*;
 pub use horseshoe::*;
+pub use hyperbola::*;
 pub use icosahedron::*;
 pub use intersection::*;
 pub use lens::*;
 pub use link::*;
 pub use mandelbulb::*;
+pub use matrix::*;
 pub use moon::*;
 pub use morph::*;
 pub use octahedron::*;
 pub use offset::*;
 pub use outline::*;
 pub use paint::*;
+pub use parabola::*;
 pub use parallelogram::*;
 pub use pipe::*;
 pub use plane::*;
 pub use polygon::*;
 pub use polyline::*;
 pub use pyramid::*;
+pub use quad::*;
 pub use quaternion_julia::*;
 pub use rectangle::*;
 pub use reflect::*;
@@ -178,6 +198,7 @@ pub use regular_polygon::*;
 pub use repeat::*;
 pub use repeat_mirrored::*;
 pub use repeat_polar::*;
+pub use repeat_varied::*;
 pub use revolve::*;
 pub use rhombus::*;
 pub use ring::*;
@@ -200,11 +221,13 @@ pub use smooth_intersection::*;
 pub use smooth_union::*;
 pub use solid_angle::*;
 pub use sphere::*;
+pub use spiral::*;
 pub use spline::*;
 pub use staircase::*;
 pub use stairs::*;
 pub use star::*;
 pub use stretch::*;
+pub use superellipse::*;
 pub use svg::*;
 pub use svg_path::*;
 pub use swirl::*;
@@ -216,6 +239,7 @@ pub use tongue::*;
 pub use torus::*;
 pub use translate::*;
 pub use trapezoid::*;
+pub use triangle::*;
 pub use truncated_octahedron::*;
 pub use tube::*;
 pub use twist::*;
@@ -248,6 +272,9 @@ pub static ALL: &[&Shape] = &[
     &CHAMFERED_RECTANGLE,
     &CIRCLE,
     &CIRCLE_SEGMENT,
+    &COLUMNS_UNION,
+    &COLUMNS_INTERSECTION,
+    &COLUMNS_DIFFERENCE,
     &COMPLEMENT,
     &CONE,
     &CONVEX_POLYHEDRON,
@@ -258,9 +285,11 @@ pub static ALL: &[&Shape] = &[
     &CUT_SPHERE,
     &CYLINDER,
     &DIFFERENCE,
+    &DISC,
     &DISPLACE,
     &DODECAHEDRON,
     &EGG,
+    &ELLIPSE,
     &ELLIPSOID,
     &ELLIPSOID_BOUND,
     &ELONGATE,
@@ -270,26 +299,31 @@ pub static ALL: &[&Shape] = &[
     &EXPONENTIAL_DIFFERENCE,
     &EXTRUDE,
     &FORMULA,
+    &GEAR,
     &GROOVE,
     &HEART,
     &HORSESHOE,
+    &HYPERBOLA,
     &ICOSAHEDRON,
     &INTERSECTION,
     &LENS,
     &LINK,
     &MANDELBULB,
+    &MATRIX,
     &MOON,
     &MORPH,
     &OCTAHEDRON,
     &OFFSET,
     &OUTLINE,
     &PAINT,
+    &PARABOLA,
     &PARALLELOGRAM,
     &PIPE,
     &PLANE,
     &POLYGON,
     &POLYLINE,
     &PYRAMID,
+    &QUAD,
     &QUATERNION_JULIA,
     &RECTANGLE,
     &REFLECT,
@@ -297,6 +331,7 @@ pub static ALL: &[&Shape] = &[
     &REPEAT,
     &REPEAT_MIRRORED,
     &REPEAT_POLAR,
+    &REPEAT_VARIED,
     &REVOLVE,
     &RHOMBUS,
     &RING,
@@ -323,6 +358,7 @@ pub static ALL: &[&Shape] = &[
     &SMOOTH_UNION,
     &SOLID_ANGLE,
     &SPHERE,
+    &SPIRAL,
     &SPLINE,
     &STAIRCASE,
     &STAIRS_UNION,
@@ -330,6 +366,7 @@ pub static ALL: &[&Shape] = &[
     &STAIRS_DIFFERENCE,
     &STAR,
     &STRETCH,
+    &SUPERELLIPSE,
     &SVG,
     &SVG_PATH,
     &SWIRL,
@@ -341,6 +378,7 @@ pub static ALL: &[&Shape] = &[
     &TORUS,
     &TRANSLATE,
     &TRAPEZOID,
+    &TRIANGLE,
     &TRUNCATED_OCTAHEDRON,
     &TUBE,
     &TWIST,

@@ -24,6 +24,7 @@ fn own(shape: &Shape) -> &'static [Option<f64>] {
     match shape.about.params[1].name {
         "order" => &[Some(1.1), Some(2.0), Some(3.7)],
         "steps" => &[Some(1.0), Some(2.0), Some(5.0)],
+        "columns" => &[Some(2.0), Some(3.0), Some(6.0)],
         _ => &[None],
     }
 }
@@ -304,6 +305,13 @@ fn profiles_are_what_their_names_say() {
         let b = k * f64::from(i) / 1000.0;
         assert!((zero("round_union", None, b) - (k - (k * k - (k - b).powi(2)).sqrt())).abs() < 1e-9, "arc at {b}");
         assert!((zero("chamfer_union", None, b) - (k - b)).abs() < 1e-9, "bevel at {b}");
+        // Arcs around points behind the bevel, of which neighbours meet at right angles.
+        let (column, radius) = (zero("columns_union", Some(3.0), b), k / 2.0);
+        let is_on_arc = [0.0, 1.0, 2.0].into_iter().any(|index| {
+            let (x, y) = (index * radius - radius * 0.5f64.sqrt(), k - index * radius - radius * 0.5f64.sqrt());
+            ((column - x).hypot(b - y) - radius).abs() < 1e-9
+        });
+        assert!(is_on_arc, "column at {b}");
         // Each of the three steps is level, from one multiple of k/4 to the next.
         let step = zero("stairs_union", Some(3.0), b);
         let rise = k / 4.0;

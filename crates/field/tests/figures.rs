@@ -415,3 +415,308 @@ fn curves_that_are_none_are_refused() {
         assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{message}: {diagnostics:?}");
     }
 }
+
+/// A point of the plane as one of space.
+fn flat(x: f64, y: f64) -> DVec3 {
+    DVec3::new(x, y, 0.0)
+}
+
+/// The distance from the nearest of some points that lie close together along a line.
+fn nearest(points: &[DVec3], p: DVec3) -> f64 {
+    points.iter().map(|q| q.distance_squared(p)).fold(f64::INFINITY, f64::min).sqrt()
+}
+
+#[test]
+fn conics_are_as_far_as_the_nearest_of_their_points() {
+    /// So many points lie along the branch and on the chord.
+    const STEPS: u32 = 20_000;
+    let mut random = Random::new(23);
+    let limit = |width: f64, height: f64| width * width / (8.0 * height);
+    for (width, height) in [(1.0, 1.0), (2.0, 0.1), (0.2, 1.8)] {
+        for share in [1.0, 1.0 - 1e-9, 1.0 - 1e-4, 0.9, 0.5, 0.1, 1e-3] {
+            let radius = share * limit(width, height);
+            let program = program(&hyperbola(width, height, radius).into());
+            let (half, bend) = (width / 2.0, (width * width / (4.0 * radius) - 2.0 * height) / (height * height));
+            // x^2 = radius (2 v + bend v^2), v being the height above the vertex.
+            let branch = (0..=STEPS).map(|step| {
+                let v = height * (f64::from(step) / f64::from(STEPS)).powi(2);
+                flat((radius * (2.0 * v + bend * v * v)).sqrt(), v - height / 2.0)
+            });
+            let chord = (0..=STEPS).map(|step| flat(half * f64::from(step) / f64::from(STEPS), height / 2.0));
+            let edge: Vec<DVec3> = branch.chain(chord).collect();
+            for _ in 0..40 {
+                let p = random.point(1.5) * DVec3::new(1.0, 1.0, 0.0);
+                let (found, known) = (program.value(p), nearest(&edge, p.abs().with_y(p.y)));
+                let error = found.abs() - known;
+                // The nearest of these points is within half a step of the foot point.
+                let step = 2.0 * (width + height) / f64::from(STEPS);
+                assert!(error < ROUNDING && error > -step, "{width} {height} {share} at {p}: {found}, not {known}");
+                assert!(
+                    known < 1e-2 || error > -step * step / known,
+                    "{width} {height} {share} at {p}: {found}, {known}"
+                );
+                let v = p.y + height / 2.0;
+                let is_inside = v > 0.0 && v < height && p.x * p.x < radius * (2.0 * v + bend * v * v);
+                assert!((found < 0.0) == is_inside, "{width} {height} {share} at {p}: {found}");
+            }
+        }
+    }
+}
+
+#[test]
+fn superellipses_are_as_far_as_the_nearest_of_their_points() {
+    const STEPS: u32 = 20_000;
+    let mut random = Random::new(24);
+    for (x, y) in [(1.0, 1.0), (1.2, 0.4), (0.3, 1.0)] {
+        let tolerance = 1.5e-4 * f64::min(x, y);
+        for exponent in [0.3, 0.7, 1.0, 1.4, 2.0, 2.5, 4.0, 9.0, 60.0] {
+            let program = program(&superellipse(x, y, exponent).into());
+            let power = |base: f64| base.powf(2.0 / exponent);
+            let curve: Vec<DVec3> = (0..=STEPS)
+                .map(|step| (std::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(STEPS)).sin_cos())
+                .map(|(sin, cos)| flat(x * power(cos), y * power(sin)))
+                .chain([flat(0.0, y)])
+                .collect();
+            // Where the curve's points lie far apart, all between two of them is near the straight edge that joins them.
+            let gap = |p: DVec3| {
+                let to_edge = |pair: &[DVec3]| {
+                    let (a, along) = (pair[0], pair[1] - pair[0]);
+                    let share = (p - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
+                    p.distance(a + along * share.clamp(0.0, 1.0))
+                };
+                curve.windows(2).map(to_edge).fold(f64::INFINITY, f64::min)
+            };
+            for _ in 0..25 {
+                let p = random.point(1.5) * DVec3::new(1.0, 1.0, 0.0);
+                let (found, known) = (program.value(p), gap(p.abs()));
+                assert!((found.abs() - known).abs() < tolerance, "{x} {y} {exponent} at {p}: {found}, not {known}");
+                let size = (p.x / x).abs().powf(exponent) + (p.y / y).abs().powf(exponent);
+                assert!(known < tolerance || (found < 0.0) == (size < 1.0), "{x} {y} {exponent} at {p}: {found}");
+            }
+        }
+    }
+}
+
+#[test]
+fn gears_mesh() {
+    // With so many teeth no tip reaches a foot that has not been cut back.
+    const TEETH: [u32; 2] = [20, 31];
+    const MODULE: f64 = 0.1;
+    const STEPS: u32 = 120;
+    let tolerance = 2.5e-3 * MODULE;
+    let [radius, other] = TEETH.map(|teeth| f64::from(teeth) * MODULE / 2.0);
+    for pressure in [20.0f64, 22.5, 25.0] {
+        let gear = |teeth: u32| gear(teeth, MODULE).with("pressure_angle", &[pressure.to_radians().into()]);
+        for turn in [0.0, 1.0, 2.5, 4.0, 7.3, 11.0] {
+            // The first one's tooth on the y axis turns into the other one's gap, to the right of it.
+            let driver = program(&gear(TEETH[0]).rotate([0.0, 0.0, 1.0], turn - 90.0));
+            let back = 90.0 + 180.0 / f64::from(TEETH[1]) - turn * radius / other;
+            let driven = program(&gear(TEETH[1]).rotate([0.0, 0.0, 1.0], back).at([radius + other, 0.0, 0.0]));
+            let mut deepest = f64::INFINITY;
+            for (i, j) in (0..=STEPS).flat_map(|i| (0..=STEPS).map(move |j| (i, j))) {
+                let place = |step: u32, reach: f64| reach * (2.0 * f64::from(step) / f64::from(STEPS) - 1.0);
+                let p = flat(radius + place(i, 1.2 * MODULE), place(j, 4.0 * MODULE));
+                deepest = deepest.min(driver.value(p).max(driven.value(p)));
+            }
+            // They touch, and nowhere overlap.
+            assert!(deepest > -tolerance, "{pressure} {turn}: {deepest} deep");
+            assert!(deepest < 8.0 * MODULE / f64::from(STEPS), "{pressure} {turn}: {deepest} apart");
+        }
+    }
+    // Teeth and gaps are equally wide on the pitch circle; tips and feet lie where they should.
+    let program = program(&gear(24, MODULE).into());
+    let at = |radius: f64, angle: f64| program.value(flat(radius * angle.sin(), radius * angle.cos()));
+    let (pitch, step) = (1.2, std::f64::consts::PI / 24.0);
+    for tooth in 0..24 {
+        let middle = 2.0 * step * f64::from(tooth);
+        assert!(at(pitch, middle + step / 2.0).abs() < tolerance && at(pitch, middle - step / 2.0).abs() < tolerance);
+        assert!(
+            at(pitch + MODULE, middle).abs() < ROUNDING && at(pitch - 1.25 * MODULE, middle + step).abs() < ROUNDING
+        );
+    }
+}
+
+#[test]
+fn spirals_are_as_far_as_the_nearest_of_their_points() {
+    const STEPS: u32 = 40_000;
+    let mut random = Random::new(25);
+    for (width, spacing, turns, inner) in
+        [(0.1, 0.3, 4.0, 0.0), (0.05, 0.5, 2.3, 0.2), (0.2, 0.1, 0.4, 0.7), (0.1, 0.2, 6.0, 0.05)]
+    {
+        let field: Field = spiral(width, spacing, turns).with("inner", &[inner.into()]).into();
+        let program = program(&field);
+        let curve: Vec<DVec3> = (0..=STEPS)
+            .map(|step| turns * f64::from(step) / f64::from(STEPS))
+            .map(|turn| (inner + spacing * turn, (std::f64::consts::TAU * turn).sin_cos()))
+            .map(|(radius, (sin, cos))| flat(radius * cos, radius * sin))
+            .collect();
+        let Extent::Finite(aabb) = extent(&field.clone().extrude(1.0)) else { panic!("a spiral is finite") };
+        let tolerance = 2e-3 * width;
+        for p in &curve {
+            let reach = DVec3::new(width, width, 0.0) / 2.0 - tolerance;
+            assert!((*p - reach).cmpge(aabb.min).all() && (*p + reach).cmple(aabb.max).all());
+        }
+        for _ in 0..200 {
+            let p = random.point(1.5) * DVec3::new(1.0, 1.0, 0.0);
+            let (found, known) = (program.value(p), nearest(&curve, p) - width / 2.0);
+            assert!((found - known).abs() < tolerance, "{width} {spacing} {turns} at {p}: {found}, not {known}");
+        }
+    }
+}
+
+#[test]
+fn sheets_are_the_thinnest_of_bodies() {
+    // As thin as bodies get without being nothing.
+    const THIN: f64 = 1e-12;
+    let corners = [[0.2, -0.4, 0.1], [0.9, 0.3, -0.5], [-0.6, 0.5, 0.3]];
+    let [a, b, c] = corners.map(DVec3::from_array);
+    let (u, w) = ((b - a).normalize(), (b - a).cross(c - a).normalize());
+    let v = w.cross(u);
+    let within = |p: DVec3| [(p - a).dot(u), (p - a).dot(v)];
+    let rows = glam::DMat3::from_cols(u, v, w).transpose().to_cols_array_2d();
+    let placed = polygon([a, b, c].map(within)).extrude(THIN).matrix(rows).at(a.to_array());
+    let mut random = Random::new(26);
+    for (name, sheet, body) in [
+        ("a disc", Field::from(disc(0.7)), Field::from(cylinder(0.7, THIN))),
+        (
+            "a disc along x",
+            disc(0.7).along(freikugel_field::Axis::X).into(),
+            cylinder(0.7, THIN).along(freikugel_field::Axis::X).into(),
+        ),
+        ("a square", quad([-0.5, -0.3, 0.0], [1.0, 0.0, 0.0], [0.0, 0.6, 0.0]).into(), cuboid([1.0, 0.6, THIN]).into()),
+        ("a triangle", triangle(corners[0], corners[1], corners[2]).into(), placed),
+        (
+            "a leaning parallelogram",
+            quad([-0.5, -0.6, -0.3], [1.0, 0.0, 0.0], [0.2, 0.0, 0.6]).into(),
+            parallelogram(1.0, 0.6, 0.2).extrude(THIN).rotate([1.0, 0.0, 0.0], 90.0).at([0.1, -0.6, 0.0]),
+        ),
+    ] {
+        let contract = analyse(&sheet).0.expect("sound").contract;
+        assert!(!contract.signed && contract.outside == Metric::Exact, "{name}");
+        let (one, other) = (program(&sheet), program(&body));
+        for p in (0..400).map(|_| random.point(1.5)) {
+            let (found, expected) = (one.value(p), other.value(p));
+            assert!((found - expected).abs() < 10.0 * THIN, "{name} at {p}: {found}, not {expected}");
+        }
+        let (Extent::Finite(one), Extent::Finite(other)) = (extent(&sheet), extent(&body)) else {
+            panic!("{name} has an end");
+        };
+        let gap = (one.min - other.min).abs().max((one.max - other.max).abs()).max_element();
+        assert!(gap < 1e-9, "{name}: {one:?}, not {other:?}");
+    }
+}
+
+#[test]
+fn matrices_do_what_other_maps_do() {
+    let child = || cuboid([0.9, 0.5, 0.7]).at([0.2, 0.1, 0.0]);
+    let turn = glam::DMat3::from_axis_angle(DVec3::new(1.0, 2.0, 0.5).normalize(), 0.6);
+    let rows = |matrix: glam::DMat3| matrix.transpose().to_cols_array_2d();
+    let mut random = Random::new(27);
+    for (name, made, known) in [
+        (
+            "a similarity",
+            child().matrix(rows(turn * 1.5)).with("by", &[0.1, -0.2, 0.3].map(Into::into)),
+            child().rotate([1.0, 2.0, 0.5], 0.6f64.to_degrees()).scale(1.5).at([0.1, -0.2, 0.3]),
+        ),
+        (
+            "a mirror",
+            child().matrix([[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+            child().reflect([1.0, 0.0, 0.0]),
+        ),
+        (
+            "stretches",
+            child().matrix([[1.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 2.0]]),
+            child().stretch([1.5, 0.5, 2.0]),
+        ),
+        ("a shear", child().matrix([[1.0, 0.0, 0.7], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]), child().shear("xz", 0.7)),
+    ] {
+        let contract = |field: &Field| analyse(field).0.expect("sound").contract;
+        assert_eq!(contract(&made), contract(&known), "{name}");
+        let (one, other) = (program(&made), program(&known));
+        for p in (0..300).map(|_| random.point(1.6)) {
+            let (found, expected) = (one.value(p), other.value(p));
+            assert!((found - expected).abs() < ROUNDING, "{name} at {p}: {found}, not {expected}");
+        }
+    }
+    // A figure stays one in its plane.
+    let (half, root) = (0.5, 0.75f64.sqrt());
+    assert!(
+        analyse(&circle(1.0).matrix([[half, -root, 0.0], [root, half, 0.0], [0.0, 0.0, 1.0]]).extrude(1.0)).0.is_some()
+    );
+    for (rows, message) in [
+        ([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]], "`rows` of `matrix` must not be singular"),
+        ([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1e-14]], "`rows` of `matrix` must not be singular"),
+    ] {
+        let (analysis, diagnostics) = analyse(&child().matrix(rows));
+        assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{diagnostics:?}");
+    }
+}
+
+#[test]
+fn copies_vary_as_much_as_they_may() {
+    let child = || cuboid([0.3, 0.5, 0.7]).at([0.1, 0.0, 0.2]);
+    let varied = |turn: f64, seed: u32| {
+        let field = child().repeat_varied([1.0, -0.8, 0.5], [3, 4, 2], [0.2, 0.0, 0.1]);
+        field.with("turn", &[turn.to_radians().into()]).with("seed", &[seed.into()])
+    };
+    // As another program computes them.
+    const FIRST: [f64; 4] = [-0.05717914066303953, 0.2955157214705162, -0.9610422413654072, 0.19212035563665286];
+    const LATER: [f64; 4] = [0.08646024760071325, 0.05637860206761336, 0.6901980769836007, 0.7102794933914025];
+    let copies = |field: &Field| freikugel_field::copies(field).expect("copies");
+    for (index, [x, _, z, turn], seed, place) in [(0, FIRST, 0, [-1.0, 1.2, -0.25]), (5, LATER, 7, [1.0, 0.4, -0.25])] {
+        let found = &copies(&varied(30.0, seed))[index];
+        let [px, py, pz] = place;
+        let expected = child().rotate([0.0, 0.0, 1.0], 30.0 * turn).at([px + 0.2 * x, py, pz + 0.1 * z]);
+        let (one, other) = (program(found), program(&expected));
+        let mut random = Random::new(28);
+        for p in (0..100).map(|_| random.point(2.0)) {
+            assert!((one.value(p) - other.value(p)).abs() < ROUNDING, "copy {index} at {p}");
+        }
+    }
+    // Without displacements and turns all is regular.
+    let regular = program(&child().repeat([1.0, -0.8, 0.5], [3, 4, 2]));
+    let still = program(&child().repeat_varied([1.0, -0.8, 0.5], [3, 4, 2], [0.0; 3]));
+    let (one, other) = (program(&varied(30.0, 1)), program(&varied(30.0, 2)));
+    let mut random = Random::new(29);
+    let mut differs = 0;
+    for p in (0..200).map(|_| random.point(2.5)) {
+        assert!((regular.value(p) - still.value(p)).abs() < ROUNDING);
+        differs += usize::from((one.value(p) - other.value(p)).abs() > 1e-3);
+    }
+    assert!(differs > 150, "other seeds, other copies: {differs} of 200");
+    // Over many copies chance is even: as often to either side, and up to the ends.
+    let many = copies(&sphere(0.1).repeat_varied([0.0; 3], [10, 10, 10], [1.0; 3]));
+    let places: Vec<DVec3> = many
+        .iter()
+        .map(|copy| match extent(copy) {
+            Extent::Finite(aabb) => aabb.center(),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    let (mean, square) =
+        (places.iter().sum::<DVec3>() / 1000.0, places.iter().map(|p| *p * *p).sum::<DVec3>() / 1000.0);
+    let most = places.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs()));
+    // Standard deviations of these means are 0.018 and 0.0094.
+    assert!(mean.abs().max_element() < 0.06 && (square - 1.0 / 3.0).abs().max_element() < 0.03, "{mean} {square}");
+    assert!(most.max_element() <= 1.0 + ROUNDING && most.min_element() > 0.98, "{most}");
+}
+
+#[test]
+fn what_can_be_no_figure_is_refused() {
+    let gear = |teeth: u32, pressure: f64| gear(teeth, 0.1).with("pressure_angle", &[pressure.to_radians().into()]);
+    for (field, message) in [
+        (Field::from(hyperbola(1.0, 1.0, 0.126)), "`radius` of `hyperbola` must not exceed 0.125"),
+        (superellipse(1.0, 1.0, 0.1).into(), "`exponent` of `superellipse` must lie between 0.2 and 100, but is 0.1"),
+        (ellipse(1.0, 1e4).into(), "must not differ by more than a factor of 1000"),
+        (gear(20, 50.0).into(), "must lie between 0 and 35 degrees"),
+        (gear(6, 33.0).into(), "end in points below their full height"),
+        (gear(300, 34.0).into(), "fill the gaps"),
+        (spiral(0.1, 0.2, 101.0).into(), "`turns` of `spiral` must not exceed 100"),
+        (triangle([0.0; 3], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]).into(), "the corners of `triangle` lie on a line"),
+        (quad([0.0; 3], [1.0, 0.0, 1.0], [0.0; 3]).into(), "the edges `u` and `v` of `quad` lie on a line"),
+        (sphere(1.0) - Field::from(disc(0.5)), "a sheet has no inside"),
+    ] {
+        let (analysis, diagnostics) = analyse(&field);
+        assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{message}: {diagnostics:?}");
+    }
+}

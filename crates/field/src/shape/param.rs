@@ -1,7 +1,8 @@
 //! What a user reads about a function, and its parameters.
 
 use crate::field::Field;
-use glam::DVec3;
+use crate::vector::spectral_norm;
+use glam::{DMat3, DVec3};
 
 /// What a user reads about a function, and what a reader of scenes needs to decode it.
 #[derive(Clone, Copy, Debug)]
@@ -65,6 +66,8 @@ pub enum ParamKind {
     Size2,
     /// Three factors other than 0.
     Factors,
+    /// The rows of a matrix of three by three numbers that flattens nothing.
+    Matrix,
     /// Three angles about x, y and z.
     Angles,
     /// A quaternion x, y, z, w other than 0; its length does not matter.
@@ -122,6 +125,7 @@ impl ParamKind {
             | Self::Points3
             | Self::Counts(..) => 3,
             Self::Quaternion | Self::Quadruple | Self::Region | Self::HalfSpaces | Self::Contours => 4,
+            Self::Matrix => 9,
         }
     }
 
@@ -154,6 +158,7 @@ impl ParamKind {
                 Some("must be above 0 in every direction".into())
             }
             Self::Factors if value.contains(&0.0) => Some("must not be 0 in any direction".into()),
+            Self::Matrix if flattens(of_rows(value)) => Some("must not be singular: it would flatten the shape".into()),
             Self::Direction if length < SHORTEST_DIRECTION => Some("must not be the zero vector".into()),
             Self::Quaternion if length < SHORTEST_DIRECTION => Some("must not be the zero quaternion".into()),
             Self::Region => match *value {
@@ -176,6 +181,24 @@ impl ParamKind {
             _ => None,
         }
     }
+}
+
+/// The matrix with these rows.
+pub(crate) fn of_rows(rows: &[f64]) -> DMat3 {
+    DMat3::from_cols_slice(&rows[..9]).transpose()
+}
+
+/// The smallest factor by which a matrix stretches a vector: its smallest singular value.
+pub(crate) fn smallest_stretch(matrix: DMat3) -> f64 {
+    1.0 / spectral_norm(matrix.inverse())
+}
+
+/// Whether a matrix stretches some direction so much less than another one that it can't be told from one that flattens it.
+fn flattens(matrix: DMat3) -> bool {
+    // Up to this ratio of stretches the inverse has a few right digits.
+    const FLATTEST: f64 = 1e12;
+    let ratio = spectral_norm(matrix) / smallest_stretch(matrix);
+    matrix.determinant() == 0.0 || ratio.is_nan() || ratio > FLATTEST
 }
 
 /// A number for a message: no hundreds of digits.

@@ -27,18 +27,18 @@ pub(crate) const RADII: Param =
     Param::required("radii", ParamKind::Size, "Distances from the centre to the surface along x, y and z.");
 
 /// More steps than any point within the supported ratio of radii was found to need (the tests count them).
-const MAX_STEPS: u32 = 16;
+pub(crate) const MAX_STEPS: u32 = 16;
 
 /// Another step is taken while N differs from 1 by more than this; convergence is quadratic, so that the last step leaves
 /// the square of it, and about this much of it in the derivative.
-const RESIDUAL: f64 = 1e-6;
+pub(crate) const RESIDUAL: f64 = 1e-6;
 
 /// Points nearer to a plane of symmetry than this share of the smallest radius are moved off it, where the foot point is
 /// not unique. It is a few units in the last place of single precision.
-const OFF_PLANE: f64 = 1e-6;
+pub(crate) const OFF_PLANE: f64 = 1e-6;
 
 /// The largest ratio between two radii.
-const MAX_RATIO: f64 = 1e3;
+pub(crate) const MAX_RATIO: f64 = 1e3;
 
 impl Primitive for Ellipsoid {
     const ABOUT: About = About {

@@ -85,7 +85,7 @@ impl Edge {
     }
 
     /// The largest of `direction . p` over its points; the direction has length 1.
-    fn support(self, direction: DVec2) -> f64 {
+    pub(crate) fn support(self, direction: DVec2) -> f64 {
         let ends = self.from.dot(direction).max(self.to.dot(direction));
         let Some((centre, radius)) = self.circle() else { return ends };
         // Of the circle, the arc has what lies beyond the chord on its right, or on its left if it turns right.
@@ -96,7 +96,7 @@ impl Edge {
 
     /// Both ends; the normal of the chord, towards the arc if it is one; sine and cosine of half the angle that it turns by; and
     /// the radius, 0 for a straight edge.
-    fn constants(self) -> [f64; ROW] {
+    pub(crate) fn constants(self) -> [f64; ROW] {
         let chord = self.to - self.from;
         let right = if chord == DVec2::ZERO { DVec2::X } else { -chord.perp().normalize() };
         let ends = [self.from.x, self.from.y, self.to.x, self.to.y];
@@ -127,7 +127,7 @@ fn grouped(args: &[f64]) -> Vec<f64> {
 }
 
 /// How many constants an edge has.
-const ROW: usize = 9;
+pub(crate) const ROW: usize = 9;
 
 impl Primitive for Outline {
     const ABOUT: About = About {

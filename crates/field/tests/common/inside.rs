@@ -27,6 +27,16 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             p == nearest || p.distance(nearest) < *round
         }
         ("ring", [outer, inner]) => across < *outer && across > *inner,
+        ("ellipse", [x, y]) => (p.x / x).powi(2) + (p.y / y).powi(2) < 1.0,
+        ("parabola", [width, height]) => {
+            p.y < height / 2.0 && p.y + height / 2.0 > height * (2.0 * p.x / width).powi(2)
+        }
+        ("hyperbola", [width, height, radius]) => {
+            // y^2 / a^2 - x^2 / b^2 > 1 beyond the centre, by the radius b^2 / a and the upper corners.
+            let (v, half) = (p.y + height / 2.0, width / 2.0);
+            let bend = (half * half / radius - 2.0 * height) / (height * height);
+            v > 0.0 && v < *height && 2.0 * v + bend * v * v > p.x * p.x / radius
+        }
         ("polygon", corners) => winds_around(corners, p),
         ("star", [tips, outer, inner]) => {
             let corners: Vec<f64> = (0..2 * *tips as usize)
@@ -189,7 +199,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         ("extrude", [height, round]) if *round == 0.0 => contains(children.next()?, p)? && p.z.abs() < height / 2.0,
         ("extrude", _) => return None,
         ("revolve", [offset]) => contains(children.next()?, DVec3::new(across - offset, p.z, 0.0))?,
-        ("repeat" | "repeat_polar" | "scatter", _) => {
+        ("repeat" | "repeat_polar" | "repeat_varied" | "scatter", _) => {
             all(freikugel_field::copies(field)?.iter().map(|copy| contains(copy, p)))?.into_iter().any(|copy| copy)
         }
         ("repeat_mirrored", spacing) => {
@@ -214,7 +224,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             contains(children.next()?, p - p.clamp(-half, half))?
         }
         ("plane", [x, y, z, d]) => DVec3::new(*x, *y, *z).normalize().dot(p) < *d,
-        ("sheet", _) => return None,
+        ("sheet" | "disc" | "triangle" | "quad", _) => return None,
         ("box", [x, y, z, round]) => {
             let core = DVec3::new(*x, *y, *z) / 2.0 - *round;
             let nearest = p.clamp(-core, core);
@@ -280,6 +290,13 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             q[moved] -= by * p[with];
             contains(children.next()?, q)?
         }
+        ("matrix", args) => {
+            // By Cramer's rule.
+            let [a, b, c] = [0, 3, 6].map(|at| DVec3::from_slice(&args[at..]));
+            let volume = a.dot(b.cross(c));
+            let q = p - DVec3::from_slice(&args[9..]);
+            contains(children.next()?, (b.cross(c) * q.x + c.cross(a) * q.y + a.cross(b) * q.z) / volume)?
+        }
         ("align", args) => {
             // Two half turns about the new direction, and the middle between both, make the turn.
             let (from, to) = (DVec3::from_slice(args).normalize(), DVec3::from_slice(&args[3..]).normalize());
@@ -299,6 +316,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             return None;
         }
         // Tested by themselves: what is inside, their own curves say.
+        ("superellipse" | "gear" | "spiral", _) => return None,
         ("text" | "svg" | "svg_path" | "bezier" | "b_spline" | "spline", _) => return None,
         (name, _) if is_blend(name) || is_carved(name) => return None,
         (name, args) => panic!("say in the membership test what lies inside {name} with {} numbers", args.len()),

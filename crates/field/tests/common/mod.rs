@@ -93,6 +93,13 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
         ParamKind::Counts(least, _) => (0..3).for_each(|_| push(f64::from(least) + random.below(3) as f64)),
         ParamKind::Size2 => (0..2).for_each(|_| push(random.range(0.3, 2.0))),
         ParamKind::Factors => (0..3).for_each(|_| push(sign * random.range(0.5, 2.0))),
+        ParamKind::Matrix => {
+            let (turn, other) = (random.direction(), random.direction());
+            let [turn, other] = [turn, other].map(|axis| DMat3::from_axis_angle(axis, random.range(0.0, 3.0)));
+            let [x, y, z] = [0, 1, 2].map(|_| random.range(0.5, 2.0));
+            let matrix = turn * DMat3::from_diagonal(DVec3::new(sign * x, y, z)) * other;
+            matrix.transpose().to_cols_array().into_iter().for_each(push);
+        }
         ParamKind::Angles => (0..3).for_each(|_| push(random.range(-4.0, 4.0))),
         ParamKind::Quaternion => (0..4).for_each(|_| push(random.range(-1.0, 1.0))),
         ParamKind::Quadruple => (0..4).for_each(|_| push(random.range(-0.6, 0.6))),
@@ -138,8 +145,8 @@ fn call_in(dimension: Dimension, shape: &'static Shape, depth: u32, random: &mut
     for _ in 0..1000 {
         let mut args = Vec::new();
         for param in shape.about.params {
-            if param.name == "order" && param.kind == ParamKind::Positive {
-                // Of a polynomial; any number above 1.
+            if ["order", "exponent"].contains(&param.name) && param.kind == ParamKind::Positive {
+                // Of a polynomial, which is any number above 1, or of a superellipse.
                 args.push(random.range(1.2, 4.0).into());
                 continue;
             }
@@ -222,7 +229,7 @@ pub(crate) fn every_shape(calls: u64) -> impl Iterator<Item = (&'static str, u64
 
 /// Whether a shape is the union, intersection or difference of a family of blends.
 pub(crate) fn is_blend(name: &str) -> bool {
-    let families = ["round", "chamfer", "exponential", "polynomial", "stairs", "root"];
+    let families = ["round", "chamfer", "exponential", "polynomial", "stairs", "columns", "root"];
     let operators = ["union", "intersection", "difference"];
     name.split_once('_').is_some_and(|(family, operator)| families.contains(&family) && operators.contains(&operator))
 }

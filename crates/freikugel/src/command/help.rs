@@ -154,6 +154,7 @@ fn values(param: &Param) -> (String, String) {
         ParamKind::Size2 => "[x, y], or one number for both".into(),
         ParamKind::Factors => "[x, y, z], none of them 0".into(),
         ParamKind::Angles => "[x, y, z] in degrees".into(),
+        ParamKind::Matrix => "three rows of three numbers".into(),
         ParamKind::Quaternion => "[x, y, z, w]".into(),
         ParamKind::Quadruple => "[real, i, j, k]".into(),
         ParamKind::Region => "{ \"sphere\": radius } or { \"box\": size }".into(),
@@ -167,6 +168,8 @@ fn values(param: &Param) -> (String, String) {
         (None, _) => "required".to_owned(),
         (Some(numbers), ParamKind::Choice(names)) => format!("{} if left out", names[numbers[0] as usize]),
         (Some(_), ParamKind::Region) => "everywhere if left out".to_owned(),
+        // Without the noise of the conversion.
+        (Some(angle), ParamKind::Angle) => format!("{} if left out", (angle[0].to_degrees() * 1e9).round() / 1e9),
         (Some(numbers), ParamKind::Flag) => format!("{} if left out", numbers[0] != 0.0),
         (Some(numbers), _) => {
             let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();

@@ -55,6 +55,7 @@ impl Notation<Vec<f64>> for ParamKind {
             (Self::Angles, _) => reader.numbers(value, ["x", "y", "z"])?.map(f64::to_radians).to_vec(),
             (Self::Quaternion, _) => reader.numbers(value, ["x", "y", "z", "w"])?.to_vec(),
             (Self::Quadruple, _) => reader.numbers(value, ["real", "i", "j", "k"])?.to_vec(),
+            (Self::Matrix, _) => rows(reader, value)?,
             (Self::Region, _) => region(reader, value)?,
             (Self::HalfSpaces, _) => entries(reader, value, "half-spaces, [x, y, z, d]", ["x", "y", "z", "d"])?,
             (Self::Contours, _) => contours(reader, value)?,
@@ -88,7 +89,7 @@ impl Notation<Vec<f64>> for ParamKind {
             },
             Self::HalfSpaces => value.chunks(4).map(list).collect(),
             Self::Points2 => value.chunks(2).map(list).collect(),
-            Self::Points3 => value.chunks(3).map(list).collect(),
+            Self::Points3 | Self::Matrix => value.chunks(3).map(list).collect(),
             Self::Text => json!(value.iter().filter_map(|&code| char::from_u32(code as u32)).collect::<String>()),
             Self::Contours => {
                 let corner = |c: &[f64]| match c[2] {
@@ -146,6 +147,7 @@ impl Notation<Vec<f64>> for ParamKind {
             }
             Self::Factors => three(factor()),
             Self::Lengths => three(json!({ "type": "number", "minimum": 0 })),
+            Self::Matrix => three(numbers_schema(3)),
             Self::Quaternion | Self::Quadruple => numbers_schema(4),
             Self::Region => {
                 let one = |name: &str, value: Json| {
@@ -235,6 +237,19 @@ fn region(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
         }
         _ => {
             reader.error(span(value), "either a sphere or a box must stand here", Some(hint.into()));
+            None
+        }
+    }
+}
+
+/// A matrix: a list of three rows.
+fn rows(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
+    match value {
+        Written::Array(array) if array.elements.len() == 3 => {
+            entries(reader, value, "rows, [x, y, z]", ["x", "y", "z"])
+        }
+        _ => {
+            reader.mistyped(value, "a list of 3 rows, [x, y, z] each", None);
             None
         }
     }
@@ -363,6 +378,9 @@ mod tests {
             (ParamKind::Factors, "[1, 0, 1]"),
             (ParamKind::Lengths, "[1, 0, -1]"),
             (ParamKind::Quaternion, "[0, 0, 0, 0]"),
+            (ParamKind::Matrix, "[[1, 0, 0], [0, 1, 0]]"),
+            (ParamKind::Matrix, "[1, 0, 0, 0, 1, 0, 0, 0, 1]"),
+            (ParamKind::Matrix, "[[1, 2, 3], [4, 5, 6], [7, 8, 9]]"),
             (ParamKind::Contours, "[[1, 2], [3, 4, 360]]"),
             (ParamKind::Contours, "[[1, 2]]"),
             (ParamKind::Contours, "[[[1, 2], [3, 4, 90]], [1, 2]]"),
@@ -383,6 +401,7 @@ mod tests {
             (ParamKind::HalfSpaces, json!([[1, 0, 0, 0.5]])),
             (ParamKind::Points2, json!([[1, 0], [0.5, 2], [0, 1]])),
             (ParamKind::Points3, json!([[1, 0, 0.5], [0.5, 2, 3]])),
+            (ParamKind::Matrix, json!([[1, 0.5, 0], [0, 1, -2], [0, 0, 1]])),
             (ParamKind::Text, json!("Grüße\n")),
             (ParamKind::Contours, json!([[1, 0], [0.5, 2, 90], [0, 1]])),
             (ParamKind::Contours, json!([[[1, 0, 180], [0.5, 2]], [[0, 1], [1, 1], [2, 2, -30.5]]])),
