@@ -24,6 +24,7 @@ pub mod cone;
 pub mod convex_polyhedron;
 pub mod convex_polyhedron_bound;
 pub mod cross;
+pub mod cross_section;
 pub mod cuboid;
 pub mod curl;
 pub mod cut_sphere;
@@ -47,6 +48,7 @@ pub mod icosahedron;
 pub mod intersection;
 pub mod lens;
 pub mod link;
+pub mod loft;
 pub mod mandelbulb;
 pub mod moon;
 pub mod morph;
@@ -60,15 +62,18 @@ pub mod plane;
 pub mod polygon;
 pub mod polyline;
 mod polynomial;
+mod product;
 pub mod pyramid;
 pub mod quaternion_julia;
 pub mod rectangle;
 pub mod reflect;
 pub mod regular_polygon;
 pub mod repeat;
+pub mod repeat_endless;
 pub mod repeat_mirrored;
 pub mod repeat_polar;
 pub mod revolve;
+pub mod revolve_part;
 pub mod rhombus;
 pub mod ring;
 pub mod ring_sector;
@@ -133,6 +138,7 @@ pub use cone::*;
 pub use convex_polyhedron::*;
 pub use convex_polyhedron_bound::*;
 pub use cross::*;
+pub use cross_section::*;
 pub use cuboid::*;
 pub use curl::*;
 pub use cut_sphere::*;
@@ -155,6 +161,7 @@ pub use icosahedron::*;
 pub use intersection::*;
 pub use lens::*;
 pub use link::*;
+pub use loft::*;
 pub use mandelbulb::*;
 pub use moon::*;
 pub use morph::*;
@@ -173,9 +180,11 @@ pub use rectangle::*;
 pub use reflect::*;
 pub use regular_polygon::*;
 pub use repeat::*;
+pub use repeat_endless::*;
 pub use repeat_mirrored::*;
 pub use repeat_polar::*;
 pub use revolve::*;
+pub use revolve_part::*;
 pub use rhombus::*;
 pub use ring::*;
 pub use ring_sector::*;
@@ -248,6 +257,7 @@ pub static ALL: &[&Shape] = &[
     &CONVEX_POLYHEDRON,
     &CONVEX_POLYHEDRON_BOUND,
     &CROSS,
+    &CROSS_SECTION,
     &BOX,
     &CURL,
     &CUT_SPHERE,
@@ -272,6 +282,7 @@ pub static ALL: &[&Shape] = &[
     &INTERSECTION,
     &LENS,
     &LINK,
+    &LOFT,
     &MANDELBULB,
     &MOON,
     &MORPH,
@@ -290,9 +301,11 @@ pub static ALL: &[&Shape] = &[
     &REFLECT,
     &REGULAR_POLYGON,
     &REPEAT,
+    &REPEAT_ENDLESS,
     &REPEAT_MIRRORED,
     &REPEAT_POLAR,
     &REVOLVE,
+    &REVOLVE_PART,
     &RHOMBUS,
     &RING,
     &RING_SECTOR,

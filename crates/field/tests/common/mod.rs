@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test file uses a part")]
 
 use freikugel_field::shape::Kind;
-use freikugel_field::{Arity, Dimension, Field, Origin, ParamKind, Shape, Value, analyse, shapes};
+use freikugel_field::{Arity, Dimension, Extent, Field, Origin, ParamKind, Shape, Value, analyse, extent, shapes};
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
 /// A small seeded generator (xorshift64*).
@@ -125,8 +125,8 @@ pub(crate) fn call(shape: &'static Shape, depth: u32, random: &mut Random) -> Fi
 
 fn call_in(dimension: Dimension, shape: &'static Shape, depth: u32, random: &mut Random) -> Field {
     let children_in = match &shape.kind {
-        Kind::Extrude(_) => Dimension::Plane,
-        Kind::Map(table) if table.takes == Dimension::Plane => Dimension::Plane,
+        Kind::Product(_) | Kind::Loft => Dimension::Plane,
+        Kind::Map(table) if !table.is_planar => table.takes,
         _ => dimension,
     };
     for _ in 0..1000 {
@@ -161,7 +161,7 @@ fn call_in(dimension: Dimension, shape: &'static Shape, depth: u32, random: &mut
 /// Whether the values of a shape are distances or bounds of them. What needs formulas or warps space has tests of its own.
 pub(crate) fn is_measured(shape: &Shape) -> bool {
     match &shape.kind {
-        Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => false,
+        Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist | Kind::Loft => false,
         Kind::Map(table) => table.is_short,
         _ => true,
     }
@@ -171,8 +171,8 @@ pub(crate) fn is_measured(shape: &Shape) -> bool {
 fn can_be(shape: &Shape, dimension: Dimension) -> bool {
     match (&shape.kind, dimension) {
         (Kind::Primitive(table), _) => table.dimension == dimension,
-        (Kind::Extrude(_), _) => dimension == Dimension::Space,
-        (Kind::Map(table), Dimension::Plane) => table.is_planar,
+        (Kind::Product(_), _) => dimension == Dimension::Space,
+        (Kind::Map(table), _) => table.gives == dimension || table.is_planar,
         (Kind::Copies(_), Dimension::Plane) => shape.about.name == "repeat",
         (Kind::Place(_), Dimension::Plane) => ["scale", "stretch"].contains(&shape.about.name),
         _ => true,
@@ -412,6 +412,26 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         ("extrude", [height, round]) if *round == 0.0 => contains(children.next()?, p)? && p.z.abs() < height / 2.0,
         ("extrude", _) => return None,
         ("revolve", [offset]) => contains(children.next()?, DVec3::new(across - offset, p.z, 0.0))?,
+        ("revolve_part", [angle, offset]) => {
+            p.y.atan2(p.x).abs() < angle / 2.0 && contains(children.next()?, DVec3::new(across - offset, p.z, 0.0))?
+        }
+        ("cross_section", [height]) => contains(children.next()?, DVec3::new(p.x, p.y, *height))?,
+        ("repeat_endless", spacing) => {
+            // All copies whose boxes hold the point; along other axes the shape may have no end.
+            let child = children.next()?;
+            let Extent::Finite(bounds) = extent(&(child.clone() & shapes::cuboid([1e6; 3]))) else {
+                return Some(false);
+            };
+            let copies = |axis: usize| match spacing[axis] {
+                0.0 => 0..=0,
+                s => {
+                    ((p[axis] - bounds.max[axis]) / s).floor() as i32..=((p[axis] - bounds.min[axis]) / s).ceil() as i32
+                }
+            };
+            let cells = copies(0).flat_map(|x| copies(1).flat_map(move |y| copies(2).map(move |z| [x, y, z])));
+            let copy = |cell: [i32; 3]| p - DVec3::from_slice(spacing) * DVec3::from(cell.map(f64::from));
+            all(cells.map(|cell| contains(child, copy(cell))))?.into_iter().any(|copy| copy)
+        }
         ("repeat" | "repeat_polar", _) => {
             all(freikugel_field::copies(field)?.iter().map(|copy| contains(copy, p)))?.into_iter().any(|copy| copy)
         }
