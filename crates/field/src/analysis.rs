@@ -8,7 +8,7 @@ use crate::contract::{Aabb, Contract, Dimension, Extent};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::field::{Field, Node};
 use crate::shape::{Arity, Hull, Kind};
-use crate::shapes::{self, displace, extrude, formula, twist, warp};
+use crate::shapes::{self, displace, formula, loft, twist, warp};
 use glam::{DAffine3, DMat3, DVec3};
 
 /// The deepest nesting a field may have; deeper ones would exhaust the stack of a small thread.
@@ -219,7 +219,7 @@ impl Walk {
                     Err(fault) => self.error(node, None, fault),
                 }
             }
-            Kind::Map(table) => {
+            Kind::Map(table) | Kind::Endless { fold: table, .. } => {
                 let child = children[0]?;
                 let is_plane = child.dimension == Dimension::Plane;
                 if table.takes == Dimension::Plane && !is_plane {
@@ -231,18 +231,30 @@ impl Walk {
                 let reach = |direction: DVec3| support(&node.children[0], direction, 0.0);
                 match (table.contract)(&args, child, &reach) {
                     Ok(contract) => {
-                        let dimension = if table.is_planar { child.dimension } else { Dimension::Space };
+                        let dimension = if table.is_planar { child.dimension } else { table.gives };
                         Some(Contract { dimension, ..contract })
                     }
                     Err(fault) => self.error(node, None, fault),
                 }
             }
-            Kind::Extrude(table) => {
+            Kind::Product(table) => {
                 let child = children[0]?;
                 if child.dimension != Dimension::Plane {
                     return self.error(node, None, format!("`{name}` takes a plane figure, not a body"));
                 }
-                match (table.contract)(&args, child, Contract::EXACT) {
+                let reach = |direction: DVec3| support(&node.children[0], direction, 0.0);
+                let figure = table.frame.as_ref().map_or(Ok(child), |frame| (frame.contract)(&args, child, &reach));
+                match figure.and_then(|figure| (table.combine.contract)(&args, figure, Contract::EXACT)) {
+                    Ok(contract) => Some(Contract { dimension: Dimension::Space, ..contract }),
+                    Err(fault) => self.error(node, None, fault),
+                }
+            }
+            Kind::Loft => {
+                let figures: Vec<Contract> = children.into_iter().collect::<Option<_>>()?;
+                if figures.iter().any(|figure| figure.dimension != Dimension::Plane) {
+                    return self.error(node, None, format!("`{name}` takes plane figures, not bodies"));
+                }
+                match loft::contract(&figures) {
                     Ok(contract) => Some(Contract { dimension: Dimension::Space, ..contract }),
                     Err(fault) => self.error(node, None, fault),
                 }
@@ -377,10 +389,22 @@ pub(crate) fn support(field: &Field, direction: DVec3, level: f64) -> f64 {
         Kind::Map(table) => {
             (table.support)(&args, direction, &|direction| support(&node.children[0], direction, level))
         }
-        Kind::Extrude(_) => {
-            let figure = |direction, level| support(&node.children[0], direction, level);
-            extrude::support(&args, direction, level, figure)
+        Kind::Product(table) => {
+            let figure = |direction: DVec3| support(&node.children[0], direction, level);
+            let within = |direction: DVec3| table.support(&args, direction, level, &figure);
+            match &table.frame {
+                Some(frame) => (frame.support)(&args, direction, &within),
+                None => within(direction),
+            }
         }
+        Kind::Endless { fold, .. } => {
+            // Farther out than copies reach, values may come from their boxes.
+            let child = |direction: DVec3, level: f64| support(&node.children[0], direction, level);
+            let reach =
+                |direction: DVec3| child(direction, level).max(child(direction, 0.0) + level * direction.length());
+            (fold.support)(&args, direction, &reach)
+        }
+        Kind::Loft => loft::support(node, direction, level),
         Kind::Modify(table) => match (table.level)(&args, level) {
             Some(level) => support(&node.children[0], direction, level),
             None => f64::INFINITY,

@@ -8,6 +8,7 @@ use crate::kernel::{
     WIDEST,
 };
 use crate::lower::{Listing, Op, Operand};
+use crate::mix::{self, MixJob};
 use crate::program::Program;
 use crate::shape::Kind;
 use crate::simd::{self, Level};
@@ -23,6 +24,7 @@ pub(crate) trait Number: Sized {
 
     fn primitive(level: Level, call: PrimitiveCall<'_, Self>);
     fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>);
+    fn mix(level: Level, job: &mut MixJob<'_>);
     fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>);
     fn affine(level: Level, job: &mut AffineJob<'_>);
     fn map(kernels: &MapKernels) -> fn(Level, &mut MapJob<'_>);
@@ -136,6 +138,11 @@ impl<N: Number> Bank<N> {
                 let constants = &constants[run.range()];
                 N::combine(&table.kernels)(level, &mut CombineJob { a, b, constants, out, count });
             }
+            Op::Mix { a, b, height, out, constants: run } => {
+                let (values, out) = apart::<N>(&mut self.values, out);
+                let [a, b, height] = [a, b, height].map(|register| values.at(register));
+                N::mix(level, &mut MixJob { a, b, height, constants: &constants[run.range()], out, count });
+            }
             Op::Modify { table, from, out, constants: run } => {
                 let (values, out) = apart::<N>(&mut self.values, out);
                 let (from, constants) = (values.at(from), &constants[run.range()]);
@@ -234,7 +241,7 @@ pub(crate) struct Values;
 pub(crate) struct Gradients;
 
 macro_rules! at_points {
-    ($Number:ident, $components:literal, $kernel:ident, $affine:ident, $FORMULA:ident) => {
+    ($Number:ident, $components:literal, $kernel:ident, $affine:ident, $mix:ident, $FORMULA:ident) => {
         impl Number for $Number {
             const COMPONENTS: usize = $components;
             const FORMULA: FormulaKernels = formula_kernel::$FORMULA;
@@ -245,6 +252,9 @@ macro_rules! at_points {
             }
             fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>) {
                 kernels.$kernel
+            }
+            fn mix(level: Level, job: &mut MixJob<'_>) {
+                mix::$mix(level, job);
             }
             fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>) {
                 kernels.$kernel
@@ -276,8 +286,8 @@ macro_rules! at_points {
     };
 }
 
-at_points!(Values, 1, values, affine_values, VALUES);
-at_points!(Gradients, 4, gradients, affine_gradients, GRADIENTS);
+at_points!(Values, 1, values, affine_values, mix_values, VALUES);
+at_points!(Gradients, 4, gradients, affine_gradients, mix_gradients, GRADIENTS);
 
 /// Enclosures of values over boxes: lower and upper ends.
 #[derive(Default)]
@@ -329,6 +339,9 @@ impl Number for Ranges {
     fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>) {
         kernels.ranges
     }
+    fn mix(level: Level, job: &mut MixJob<'_>) {
+        mix::mix_ranges(level, job);
+    }
     fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>) {
         kernels.ranges
     }
@@ -360,6 +373,9 @@ impl Number for Models {
     }
     fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>) {
         kernels.models
+    }
+    fn mix(level: Level, job: &mut MixJob<'_>) {
+        mix::mix_models(level, job);
     }
     fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>) {
         kernels.models

@@ -7,9 +7,10 @@
 use crate::field::{Field, MaterialId, Node};
 use crate::formula::{Binary, Formula, Term, Unary};
 use crate::kernel::AFFINE_CONSTANTS;
+use crate::mix::MIX_CONSTANTS;
 use crate::operation::{Code, Derive, Link, NO_REGION, Region, Run, Step, StepId, Steps};
-use crate::shape::{CombineTable, Kind, PrimitiveTable, Shape};
-use crate::shapes::{self, extrude, formula, twist};
+use crate::shape::{CombineTable, Kind, MapTable, PrimitiveTable, Shape, range_constants};
+use crate::shapes::{self, formula, loft, repeat_endless, twist};
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
@@ -35,8 +36,11 @@ type Prepare = fn(&[f64]) -> Vec<f64>;
 
 /// A tree whose numbers have got their slots.
 struct Slotted<'f> {
+    field: &'f Field,
     node: &'f Node,
     args: Range<usize>,
+    /// The slots of the whole tree.
+    all: Range<usize>,
     children: Vec<Slotted<'f>>,
 }
 
@@ -66,7 +70,8 @@ impl Compiler {
         let start = self.values.len();
         self.values.extend(node.numbers());
         let args = start..self.values.len();
-        Slotted { node, args, children: node.children.iter().map(|child| self.slots(child)).collect() }
+        let children = node.children.iter().map(|child| self.slots(child)).collect();
+        Slotted { field, node, args, all: start..self.values.len(), children }
     }
 
     fn push(&mut self, step: Step) -> StepId {
@@ -196,23 +201,33 @@ impl Compiler {
                 let value = self.emit(&tree.children[0], &Space { point, chain: Vec::new() }, material, None);
                 self.joined(before, value)
             }
-            Kind::Extrude(table) => {
-                let (space, at) = self.settled(space);
+            Kind::Product(table) => {
+                let (mut space, mut at) = self.settled(space);
+                if let Some(frame) = &table.frame {
+                    let constants = self.prepared(frame.prepare, &tree.args);
+                    let point = self.push(Step::Map { table: frame, from: space.point, at, constants });
+                    (space, at) = self.settled(&Space { point, chain: Vec::new() });
+                }
                 let a = self.emit(&tree.children[0], &space, material, None);
-                let Kind::Primitive(slab) = &shapes::SLAB.kind else { unreachable!("a slab is a primitive") };
-                let height = self.prepared(extrude::core, &tree.args);
-                let slope = self.derived(1, |out| Derive::Literals { numbers: vec![1.0], out }).start() as u32;
-                let b = Step::Primitive {
-                    table: slab,
-                    point: space.point,
-                    at,
-                    constants: height,
-                    slope,
-                    region: NO_REGION,
-                };
-                let b = self.push(b);
-                let constants = self.prepared(table.prepare, &tree.args);
-                let value = self.push(Step::Combine { table, a, b, constants });
+                let range = (table.range)(&node.numbers()).0;
+                let constants = self.prepared(table.range_constants, &tree.args);
+                let b = self.measure(range, space.point, at, constants);
+                let constants = self.prepared(table.combine.prepare, &tree.args);
+                let value = self.push(Step::Combine { table: &table.combine, a, b, constants });
+                self.joined(before, value)
+            }
+            Kind::Loft => {
+                let (space, at) = self.settled(space);
+                let value = self.lofted(tree, &space, at, material);
+                let (cut, _) = loft::cut(&node.numbers());
+                let constants = self.prepared(|args| range_constants(loft::cut(args)), &tree.args);
+                let by = self.measure(cut, space.point, at, constants);
+                let value = self.push(Step::Altered { op: Binary::Max, from: value, by });
+                self.joined(before, value)
+            }
+            Kind::Endless { fold, .. } => {
+                let (space, at) = self.settled(space);
+                let value = self.repeated(tree, fold, &space, at, material);
                 self.joined(before, value)
             }
             Kind::Modify(table) => {
@@ -253,6 +268,59 @@ impl Compiler {
         }
     }
 
+    /// Emits the mixture of all figures of a loft.
+    fn lofted(&mut self, tree: &Slotted<'_>, space: &Space, at: Run, material: Option<MaterialId>) -> StepId {
+        let (shape, numbers) = loft::height();
+        let numbers = range_constants((shape, numbers));
+        let constants = self.derived(numbers.len(), |out| Derive::Literals { numbers, out });
+        let height = self.measure(shape, space.point, at, constants);
+        let count = tree.children.len();
+        let mut value = self.emit(&tree.children[0], space, material, None);
+        for (index, child) in tree.children[1..].iter().enumerate() {
+            let b = self.emit(child, space, material, None);
+            let args = tree.args.clone();
+            let constants = self.derived(MIX_CONSTANTS, |out| Derive::Mixture { args, index, count, out });
+            value = self.push(Step::Mix { a: value, b, height, constants });
+        }
+        value
+    }
+
+    /// Emits the nearest of the copies of an endless repetition that are looked at, none of them nearer than its box and all of
+    /// them no farther than the others.
+    fn repeated(
+        &mut self,
+        tree: &Slotted<'_>,
+        fold: &'static MapTable,
+        space: &Space,
+        at: Run,
+        material: Option<MaterialId>,
+    ) -> StepId {
+        let (field, numbers) = (tree.field.clone(), tree.all.clone());
+        let count = repeat_endless::constants(&field).len();
+        let all = self.derived(count, |out| Derive::Endless { field, numbers, out }).range();
+        let mut runs =
+            all.step_by(repeat_endless::CONSTANTS).map(|start| Run::from(start..start + repeat_endless::CONSTANTS));
+        let others = runs.next().expect("there are always others");
+        let by_others = self.measure(tree.node.shape, space.point, at, others);
+        let mut nearest = None;
+        while let (Some(place), Some(boxes)) = (runs.next(), runs.next()) {
+            let point = self.push(Step::Map { table: fold, from: space.point, at, constants: place });
+            let from = self.emit(&tree.children[0], &Space { point, chain: Vec::new() }, material, None);
+            let by = self.measure(tree.node.shape, space.point, at, boxes);
+            let copy = self.push(Step::Altered { op: Binary::Max, from, by });
+            nearest = Some(self.joined(nearest, copy));
+        }
+        let from = nearest.expect("a copy is looked at");
+        self.push(Step::Altered { op: Binary::Min, from, by: by_others })
+    }
+
+    /// Emits a distance that bounds or measures something, but is no surface.
+    fn measure(&mut self, shape: &'static Shape, point: StepId, at: Run, constants: Run) -> StepId {
+        let table = shape.distance().expect("it is a distance");
+        let slope = self.derived(1, |out| Derive::Literals { numbers: vec![1.0], out }).start() as u32;
+        self.push(Step::Primitive { table, point, at, constants, slope, region: NO_REGION })
+    }
+
     /// Emits the point turned back by the angle of a twist.
     fn twisted(&mut self, tree: &Slotted<'_>, point: StepId, at: Run) -> StepId {
         let [u, v, along] = twist::axes(tree.node);
@@ -283,17 +351,15 @@ impl Compiler {
     fn cut(&mut self, region: formula::Region, args: Range<usize>, point: StepId, at: Run) -> Option<StepId> {
         // What kind of region it is shapes the steps; its sizes are numbers like others.
         self.fixed.insert(args.start);
-        let (shape, prepare): (&Shape, Prepare) = match region {
+        let (shape, prepare): (&'static Shape, Prepare) = match region {
             formula::Region::Everywhere => return None,
             formula::Region::Sphere { .. } => (&shapes::SPHERE, |size| size[..1].to_vec()),
             formula::Region::Box { .. } => {
                 (&shapes::BOX, |size| vec![size[0] / 2.0, size[1] / 2.0, size[2] / 2.0, 0.0])
             }
         };
-        let Kind::Primitive(table) = &shape.kind else { unreachable!("a sphere or a box") };
         let constants = self.prepared(prepare, &(args.start + 1..args.end));
-        let slope = self.derived(1, |out| Derive::Literals { numbers: vec![1.0], out }).start() as u32;
-        Some(self.push(Step::Primitive { table, point, at, constants, slope, region: NO_REGION }))
+        Some(self.measure(shape, point, at, constants))
     }
 
     /// The minimum of a value and the one before it, if there is one.
@@ -409,7 +475,14 @@ pub(crate) fn can_fold(node: &Node) -> bool {
         Kind::Modify(_) => false,
         Kind::Paint => can_fold(node.children[0].node()),
         Kind::Copies(_) => can_fold(node.children[0].node()),
-        Kind::Map(_) | Kind::Extrude(_) | Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => true,
+        Kind::Map(_)
+        | Kind::Product(_)
+        | Kind::Loft
+        | Kind::Endless { .. }
+        | Kind::Formula
+        | Kind::Warp
+        | Kind::Displace
+        | Kind::Twist => true,
     }
 }
 

@@ -6,6 +6,7 @@
 use crate::bank::{Bank, Gradients, Values};
 use crate::focus::Focus;
 use crate::kernel::{BATCH, Block, CombineJob, WIDEST};
+use crate::mix::{MixJob, mix_values};
 use crate::operation::{NO_REGION, Step, StepId};
 use crate::program::{Part, Program};
 use crate::second::Seconds;
@@ -230,6 +231,19 @@ impl<'p> Evaluator<'p> {
                             self.weights[b].0[lane] = weight * share.0[lane];
                         }
                     }
+                    Step::Mix { a, b, height, constants } => {
+                        let (a, b, height) = (place(a), place(b), self.kept.value(place(height)));
+                        let constants = &self.program.single[constants.range()];
+                        let out = std::slice::from_mut(&mut share);
+                        // What 0 and 1 mix to is the share of the second value.
+                        let (zero, one) = (std::slice::from_ref(&NONE), std::slice::from_ref(&ALL));
+                        mix_values(self.level, &mut MixJob { a: zero, b: one, height, constants, out, count });
+                        for lane in 0..count {
+                            let weight = self.weights[own].0[lane];
+                            self.weights[a].0[lane] = weight * (1.0 - share.0[lane]);
+                            self.weights[b].0[lane] = weight * share.0[lane];
+                        }
+                    }
                     Step::Primitive { region, .. } | Step::Surface { region, .. } if region != NO_REGION => {
                         let column = regions.binary_search(&region).expect("a part lists all its regions");
                         let start = column * out.count;
@@ -249,6 +263,10 @@ impl<'p> Evaluator<'p> {
         }
     }
 }
+
+/// Shares of nothing, and of all.
+static NONE: Block = Block([0.0; BATCH]);
+static ALL: Block = Block([1.0; BATCH]);
 
 /// The distances to nothing.
 static NOWHERE: [f32; BATCH] = [f32::INFINITY; BATCH];

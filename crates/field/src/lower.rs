@@ -40,6 +40,8 @@ pub(crate) enum Op {
     },
     /// `values[out] = combine(values[a], values[b])`.
     Combine { table: &'static CombineTable, a: usize, b: usize, out: usize, constants: Run },
+    /// `values[out]` mixes `values[a]` and `values[b]` by a share that follows from `values[height]`.
+    Mix { a: usize, b: usize, height: usize, out: usize, constants: Run },
     /// `values[out] = modify(values[from])`.
     Modify { table: &'static ModifyTable, from: usize, out: usize, constants: Run },
     /// `values[out] = factor * values[from]`.
@@ -123,6 +125,9 @@ impl Listing {
                 }
                 Step::Combine { table, a, b, constants, .. } => {
                     Some(Op::Combine { table, a: place(a), b: place(b), out, constants })
+                }
+                Step::Mix { a, b, height, constants } => {
+                    Some(Op::Mix { a: place(a), b: place(b), height: place(height), out, constants })
                 }
                 Step::Modify { table, from, constants, .. } => {
                     Some(Op::Modify { table, from: place(from), out, constants })

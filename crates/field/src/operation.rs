@@ -1,7 +1,7 @@
 //! What programs are made of: operations, and how their constants follow from the numbers of a tree.
 
 use crate::analysis::axis_map;
-use crate::field::MaterialId;
+use crate::field::{Field, MaterialId};
 use crate::formula::{Binary, Unary};
 use crate::shape::{CombineTable, CopiesTable, MapTable, ModifyTable, PlaceTable, PrimitiveTable};
 use glam::{DMat3, DVec3};
@@ -81,6 +81,8 @@ pub(crate) enum Step {
     Primitive { table: &'static PrimitiveTable, point: StepId, at: Run, constants: Run, slope: u32, region: u32 },
     /// The value `combine(a, b)`.
     Combine { table: &'static CombineTable, a: StepId, b: StepId, constants: Run },
+    /// The mixture of two values, by the share that follows from a height.
+    Mix { a: StepId, b: StepId, height: StepId, constants: Run },
     /// The value `modify(from)`.
     Modify { table: &'static ModifyTable, from: StepId, constants: Run },
     /// The value `factor * from`.
@@ -125,7 +127,7 @@ impl Step {
                     visit(b);
                 }
             }
-            Self::Warp { x, y, z } => {
+            Self::Warp { x, y, z } | Self::Mix { a: x, b: y, height: z, .. } => {
                 visit(x);
                 if y != x {
                     visit(y);
@@ -153,7 +155,9 @@ impl Step {
                 *a = map(*a);
                 *b = map(*b);
             }
-            Self::Warp { x, y, z } => [x, y, z].into_iter().for_each(|id| *id = map(*id)),
+            Self::Warp { x, y, z } | Self::Mix { a: x, b: y, height: z, .. } => {
+                [x, y, z].into_iter().for_each(|id| *id = map(*id));
+            }
         }
         self
     }
@@ -183,6 +187,10 @@ pub(crate) enum Derive {
     Affine { chain: Vec<Link>, from_root: bool, out: Range<usize> },
     /// The same for a chain of translations: what to subtract.
     Offset { chain: Vec<Link>, from_root: bool, out: Range<usize> },
+    /// The mixture of a loft that goes from figure `index` to the next of `count`.
+    Mixture { args: Range<usize>, index: usize, count: usize, out: Range<usize> },
+    /// All of an endless repetition with these numbers in its tree, of as many copies as there were when it was compiled.
+    Endless { field: Field, numbers: Range<usize>, out: Range<usize> },
     /// Numbers that are no arguments: those of a formula's text.
     Literals { numbers: Vec<f64>, out: Range<usize> },
     /// The largest slope of a primitive; infinite if it is not known.

@@ -33,7 +33,7 @@ pub enum Action {
     },
     /// The point `map(p - at)`.
     Map {
-        /// The function, whose kind is [`Kind::Map`].
+        /// The function, which has a [`Shape::mapping`].
         shape: &'static Shape,
         /// The point.
         from: usize,
@@ -44,7 +44,7 @@ pub enum Action {
     },
     /// The value `primitive(p - at)`.
     Primitive {
-        /// The function, whose kind is [`Kind::Primitive`].
+        /// The function, which has a [`Shape::distance`].
         shape: &'static Shape,
         /// The point.
         point: usize,
@@ -57,13 +57,26 @@ pub enum Action {
     },
     /// The value `combine(a, b)`.
     Combine {
-        /// The function, whose kind is [`Kind::Combine`] or [`Kind::Extrude`].
+        /// The function, which has a [`Shape::combination`].
         shape: &'static Shape,
         /// The first value.
         a: usize,
         /// The second value.
         b: usize,
         /// The constants of the function.
+        constants: Range<usize>,
+    },
+    /// The mixture of two values, by the share that follows from a height: see [`mixed`](crate::mix::mixed).
+    Mix {
+        /// The function, whose kind is [`Kind::Loft`].
+        shape: &'static Shape,
+        /// The first value.
+        a: usize,
+        /// The second value.
+        b: usize,
+        /// What the share follows from.
+        height: usize,
+        /// The constants of the mixture.
         constants: Range<usize>,
     },
     /// The value `modify(from)`.
@@ -162,28 +175,33 @@ impl Action {
             Step::Point => Self::Point,
             Step::Affine { from, constants } => Self::Affine { from: from.index(), constants: constants.start() },
             Step::Map { table, from, at, constants } => Self::Map {
-                shape: named(|kind| matches!(kind, Kind::Map(other) if std::ptr::eq(other, table))),
+                shape: named(|shape| shape.mapping().is_some_and(|other| std::ptr::eq(other, table))),
                 from: from.index(),
                 at: at.start(),
                 constants: range(constants),
             },
             Step::Primitive { table, point, at, constants, region, .. } => Self::Primitive {
-                shape: named(|kind| matches!(kind, Kind::Primitive(other) if std::ptr::eq(other, table))),
+                shape: named(|shape| shape.distance().is_some_and(|other| std::ptr::eq(other, table))),
                 point: point.index(),
                 at: at.start(),
                 constants: range(constants),
                 region: (region != NO_REGION).then_some(region as usize),
             },
             Step::Combine { table, a, b, constants } => Self::Combine {
-                shape: named(
-                    |kind| matches!(kind, Kind::Combine(other) | Kind::Extrude(other) if std::ptr::eq(other, table)),
-                ),
+                shape: named(|shape| shape.combination().is_some_and(|other| std::ptr::eq(other, table))),
                 a: a.index(),
                 b: b.index(),
                 constants: range(constants),
             },
+            Step::Mix { a, b, height, constants } => Self::Mix {
+                shape: named(|shape| matches!(shape.kind, Kind::Loft)),
+                a: a.index(),
+                b: b.index(),
+                height: height.index(),
+                constants: range(constants),
+            },
             Step::Modify { table, from, constants } => Self::Modify {
-                shape: named(|kind| matches!(kind, Kind::Modify(other) if std::ptr::eq(other, table))),
+                shape: named(|shape| matches!(&shape.kind, Kind::Modify(other) if std::ptr::eq(other, table))),
                 from: from.index(),
                 constants: range(constants),
             },
@@ -202,7 +220,7 @@ impl Action {
     }
 }
 
-/// The shape with this kind.
-fn named(is_it: impl Fn(&Kind) -> bool) -> &'static Shape {
-    shapes::ALL.iter().find(|shape| is_it(&shape.kind)).expect("every function is one of the shapes")
+/// The shape that this is said of.
+fn named(is_it: impl Fn(&Shape) -> bool) -> &'static Shape {
+    shapes::ALL.iter().find(|shape| is_it(shape)).expect("every function is one of the shapes")
 }

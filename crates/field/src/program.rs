@@ -11,9 +11,11 @@ use crate::kernel::{
     CombineFn, CombineKernels, Dual2, MapFn, MapKernels, ModifyFn, ModifyKernels, PrimitiveFn, PrimitiveKernels, affine,
 };
 use crate::lower::Listing;
+use crate::mix::{MIX_CONSTANTS, mixed};
 use crate::operands::Operands;
 use crate::operation::{Code, Derive, NO_REGION, Run, Step, StepId, Steps, inverse_of};
 use crate::scalar::{Constants, Dual, Interval, Scalar};
+use crate::shapes::{loft, repeat_endless};
 use crate::spine::Spine;
 use crate::vector::{Vec3, spectral_norm};
 use glam::DVec3;
@@ -214,6 +216,12 @@ impl Program {
                         S::combine(&table.kernels)(a, b, &Constants::new(like, slots, constants.len()))
                     });
                 }
+                Step::Mix { a, b, height, constants } => {
+                    let [a, b, height] = [a, b, height].map(|id| values[place(id)]);
+                    value = S::with_table(&self.double, constants, |slots| {
+                        mixed(a, b, height, &Constants::new(like, slots, MIX_CONSTANTS))
+                    });
+                }
                 Step::Modify { table, from, constants, .. } => {
                     let from = values[place(from)];
                     value = S::with_table(&self.double, constants, |slots| {
@@ -268,9 +276,9 @@ impl Part {
         let one_by_one = OnceLock::new();
         // What is computed from coordinates other than by primitives has no scale. A formula of which nothing but the cut is
         // left does not read them any more.
-        // Neither has what a map stretches.
+        // Neither has what a map stretches, or what is mixed by heights.
         let is_measured = !steps.list.iter().any(|step| match step {
-            Step::Coordinate { .. } | Step::Literal { .. } => true,
+            Step::Coordinate { .. } | Step::Literal { .. } | Step::Mix { .. } => true,
             Step::Map { table, .. } => !table.is_short,
             _ => false,
         });
@@ -435,6 +443,16 @@ fn derive(code: &Code, values: &[f64], origin: DVec3) -> Result<Vec<f64>, BindEr
                     translation += origin;
                 }
                 constants[out.clone()].copy_from_slice(&(-translation).to_array());
+            }
+            Derive::Mixture { args, index, count, out } => {
+                constants[out.clone()].copy_from_slice(&loft::mixture(&values[args.clone()], *index, *count));
+            }
+            Derive::Endless { field, numbers, out } => {
+                let own = repeat_endless::constants(&field.with_numbers(&mut &values[numbers.clone()]));
+                if own.len() != out.len() {
+                    return Err(BindError::Structure);
+                }
+                constants[out.clone()].copy_from_slice(&own);
             }
             Derive::Literals { numbers, out } => constants[out.clone()].copy_from_slice(numbers),
             Derive::Slope { table, args, out } => {

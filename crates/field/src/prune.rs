@@ -9,6 +9,7 @@
 use crate::bank::{Bank, Ranges};
 use crate::formula::{Binary, Unary};
 use crate::kernel::{BATCH, WIDEST};
+use crate::mix;
 use crate::operation::{Run, Step, StepId, Steps};
 use crate::program::{Part, Program};
 use crate::scalar::Interval;
@@ -170,6 +171,12 @@ fn settle(program: &Program, step: &Step, range: impl Fn(StepId) -> [f32; 2]) ->
         Step::Binary { op: Binary::Max, a, b } => {
             pair(a, b).map_or(Settled::Open, |(a, b)| Settled::lesser(-a, -b, 0.0))
         }
+        // What alters a value has no region of its own.
+        Step::Altered { op: Binary::Min, from, by } => pair(from, by).map_or(Settled::Open, |(a, b)| kept(a, b)),
+        Step::Altered { op: Binary::Max, from, by } => pair(from, by).map_or(Settled::Open, |(a, b)| kept(-a, -b)),
+        Step::Mix { height, constants, .. } => {
+            interval(height).map_or(Settled::Open, |height| mix::settle(height, &program.double[constants.range()]))
+        }
         Step::Unary { op: Unary::Abs, from } => match range(from) {
             [lo, _] if lo > 0.0 => Settled::First,
             [_, hi] if hi < 0.0 => Settled::NotSecond,
@@ -177,6 +184,11 @@ fn settle(program: &Program, step: &Step, range: impl Fn(StepId) -> [f32; 2]) ->
         },
         _ => Settled::Open,
     }
+}
+
+/// Whether the first of two values is less than the second, which has no region of its own.
+fn kept(a: Interval, b: Interval) -> Settled {
+    if Settled::lesser(a, b, 0.0) == Settled::First { Settled::First } else { Settled::Open }
 }
 
 /// The operands of a step that picks one of two values, and whether it picks the lesser or the greater.
@@ -280,15 +292,15 @@ fn mark(
 
 fn first(step: &Step) -> StepId {
     match *step {
-        Step::Combine { a, .. } | Step::Binary { a, .. } => a,
-        Step::Unary { from, .. } => from,
+        Step::Combine { a, .. } | Step::Binary { a, .. } | Step::Mix { a, .. } => a,
+        Step::Unary { from, .. } | Step::Altered { from, .. } => from,
         _ => unreachable!("only choices are settled"),
     }
 }
 
 fn second(step: &Step) -> StepId {
     match *step {
-        Step::Combine { b, .. } | Step::Binary { b, .. } => b,
+        Step::Combine { b, .. } | Step::Binary { b, .. } | Step::Mix { b, .. } => b,
         Step::Unary { from, .. } => from,
         _ => unreachable!("only choices are settled"),
     }

@@ -29,8 +29,10 @@ impl ExactRay {
                 Kind::Combine(_)
                 | Kind::Map(_)
                 | Kind::Modify(_)
-                | Kind::Extrude(_)
+                | Kind::Product(_)
+                | Kind::Loft
                 | Kind::Copies(_)
+                | Kind::Endless { .. }
                 | Kind::Formula
                 | Kind::Warp
                 | Kind::Displace

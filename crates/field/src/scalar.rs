@@ -145,6 +145,12 @@ pub trait Scalar:
         self
     }
 
+    /// `(1 - share) a + share b`, for a share from 0 to 1. Enclosures know that both shares make 1.
+    #[inline(always)]
+    fn mix(a: Self, b: Self, share: Self) -> Self {
+        a * (share.lift(1.0) - share) + b * share
+    }
+
     /// The sine of an angle in radians; NaN at the infinities.
     fn sin(self) -> Self;
 

@@ -9,6 +9,7 @@ use crate::bank::{Bank, Number, PrimitiveCall};
 use crate::evaluator::{Evaluator, Points, batches};
 use crate::formula_kernel::{self, FormulaKernels};
 use crate::kernel::{AffineJob, CombineJob, CombineKernels, MapJob, MapKernels, ModifyJob, ModifyKernels, WIDEST};
+use crate::mix::MixJob;
 use crate::program::Part;
 use crate::simd::Level;
 
@@ -27,6 +28,10 @@ impl Number for Seconds {
 
     fn combine(kernels: &CombineKernels) -> fn(Level, &mut CombineJob<'_>) {
         kernels.seconds
+    }
+
+    fn mix(level: Level, job: &mut MixJob<'_>) {
+        crate::mix::mix_seconds(level, job);
     }
 
     fn modify(kernels: &ModifyKernels) -> fn(Level, &mut ModifyJob<'_>) {

@@ -2,13 +2,14 @@
 //!
 //! A [`Shape`] is static data plus the kernels instantiated from one generic formula. The scene reader, the schema, the
 //! documentation, the evaluator and the shader text all read descriptors; none of them keeps a list of its own. A new
-//! function is one file under `shapes/` that implements one of the seven traits here:
+//! function is one file under `shapes/` that implements one of the eight traits here:
 //!
 //! - [`Primitive`]: a point and parameters to a distance;
 //! - [`Special`]: a primitive that is another one with certain arguments, by whose kernels it is computed;
 //! - [`Combine`]: distances of several children to one, folded from left to right;
 //! - [`Place`]: an affine map of space;
-//! - [`Map`]: any other map of space, or from space to the plane of a figure;
+//! - [`Map`]: any other map of space, or from space to the plane of a figure and back;
+//! - [`Product`]: a body of a figure and a range;
 //! - [`Copies`]: a union of copies in several places;
 //! - [`Modify`]: one distance to another.
 
@@ -18,10 +19,12 @@ mod traits;
 
 pub use param::{AXIS, About, FileParam, Param, ParamKind, SHORTEST_DIRECTION};
 pub(crate) use param::{of_rows, smallest_stretch};
-pub use table::{CombineTable, CopiesTable, MapTable, ModifyTable, PlaceTable, PrimitiveTable};
+pub(crate) use table::range_constants;
+pub use table::{CombineTable, CopiesTable, MapTable, ModifyTable, PlaceTable, PrimitiveTable, ProductTable};
 pub(crate) use traits::in_plane;
 pub use traits::{
-    Combine, Copies, ExactForm, Hull, Map, Modify, Place, PlaceCall, Primitive, Settled, Special, Supports,
+    Combine, Copies, ExactForm, Hull, Map, Modify, Place, PlaceCall, Primitive, Product, RangeCall, Settled, Special,
+    Supports,
 };
 
 /// A function that makes or changes a field.
@@ -50,8 +53,17 @@ pub enum Kind {
     Modify(ModifyTable),
     /// See [`Copies`].
     Copies(CopiesTable),
-    /// Makes a body of a figure: combines the figure's distance with that from all points within some height of its plane.
-    Extrude(CombineTable),
+    /// See [`Product`].
+    Product(ProductTable),
+    /// Makes a body whose cross-section goes from one figure to the next.
+    Loft,
+    /// Repeats its child without end.
+    Endless {
+        /// Where each copy is looked up.
+        fold: MapTable,
+        /// The distance from the boxes that copies lie in.
+        boxes: PrimitiveTable,
+    },
     /// Gives its child a material.
     Paint,
     /// Computes a formula.
@@ -91,9 +103,9 @@ impl Shape {
         Self { about: C::ABOUT, kind: Kind::Combine(CombineTable::of::<C>()), file: None }
     }
 
-    /// The descriptor of a way to make bodies of figures: `C` combines the figure's distance with that along the height.
-    pub const fn extrude<C: Combine>() -> Self {
-        Self { about: C::ABOUT, kind: Kind::Extrude(CombineTable::of::<C>()), file: None }
+    /// The descriptor of a way to make bodies of figures.
+    pub const fn product<P: Product>() -> Self {
+        Self { about: <P as Combine>::ABOUT, kind: Kind::Product(ProductTable::of::<P>()), file: None }
     }
 
     /// The descriptor of an affine map.
@@ -122,10 +134,28 @@ impl Shape {
         Self { about: self.about, kind: self.kind, file: Some(file) }
     }
 
-    /// The functions of a combination, be it of shapes, or of a figure and its height.
+    /// The functions by which it gets a value from a point, if it does.
+    pub fn distance(&self) -> Option<&PrimitiveTable> {
+        match &self.kind {
+            Kind::Primitive(table) | Kind::Endless { boxes: table, .. } => Some(table),
+            _ => None,
+        }
+    }
+
+    /// The functions by which it looks its child up at other points, if it does.
+    pub fn mapping(&self) -> Option<&MapTable> {
+        match &self.kind {
+            Kind::Map(table) | Kind::Endless { fold: table, .. } => Some(table),
+            Kind::Product(table) => table.frame.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// The functions by which it combines two values, if it does.
     pub fn combination(&self) -> Option<&CombineTable> {
         match &self.kind {
-            Kind::Combine(table) | Kind::Extrude(table) => Some(table),
+            Kind::Combine(table) => Some(table),
+            Kind::Product(table) => Some(&table.combine),
             _ => None,
         }
     }
@@ -134,12 +164,13 @@ impl Shape {
     pub fn arity(&self) -> Arity {
         match self.kind {
             Kind::Primitive(_) | Kind::Formula => Arity::None,
-            Kind::Combine(_) => Arity::Many,
+            Kind::Combine(_) | Kind::Loft => Arity::Many,
             Kind::Place(_)
             | Kind::Map(_)
             | Kind::Modify(_)
-            | Kind::Extrude(_)
+            | Kind::Product(_)
             | Kind::Copies(_)
+            | Kind::Endless { .. }
             | Kind::Paint
             | Kind::Warp
             | Kind::Displace

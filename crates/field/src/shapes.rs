@@ -26,6 +26,7 @@ pub mod cone;
 pub mod convex_polyhedron;
 pub mod convex_polyhedron_bound;
 pub mod cross;
+pub mod cross_section;
 pub mod cuboid;
 pub mod curl;
 pub mod cut_sphere;
@@ -53,6 +54,7 @@ pub mod icosahedron;
 pub mod intersection;
 pub mod lens;
 pub mod link;
+pub mod loft;
 pub mod mandelbulb;
 pub mod matrix;
 pub mod moon;
@@ -68,6 +70,7 @@ pub mod plane;
 pub mod polygon;
 pub mod polyline;
 mod polynomial;
+mod product;
 pub mod pyramid;
 pub mod quad;
 pub mod quaternion_julia;
@@ -75,10 +78,12 @@ pub mod rectangle;
 pub mod reflect;
 pub mod regular_polygon;
 pub mod repeat;
+pub mod repeat_endless;
 pub mod repeat_mirrored;
 pub mod repeat_polar;
 pub mod repeat_varied;
 pub mod revolve;
+pub mod revolve_part;
 pub mod rhombus;
 pub mod ring;
 pub mod ring_sector;
@@ -149,6 +154,7 @@ pub use cone::*;
 pub use convex_polyhedron::*;
 pub use convex_polyhedron_bound::*;
 pub use cross::*;
+pub use cross_section::*;
 pub use cuboid::*;
 pub use curl::*;
 pub use cut_sphere::*;
@@ -175,6 +181,7 @@ pub use icosahedron::*;
 pub use intersection::*;
 pub use lens::*;
 pub use link::*;
+pub use loft::*;
 pub use mandelbulb::*;
 pub use matrix::*;
 pub use moon::*;
@@ -196,10 +203,12 @@ pub use rectangle::*;
 pub use reflect::*;
 pub use regular_polygon::*;
 pub use repeat::*;
+pub use repeat_endless::*;
 pub use repeat_mirrored::*;
 pub use repeat_polar::*;
 pub use repeat_varied::*;
 pub use revolve::*;
+pub use revolve_part::*;
 pub use rhombus::*;
 pub use ring::*;
 pub use ring_sector::*;
@@ -280,6 +289,7 @@ pub static ALL: &[&Shape] = &[
     &CONVEX_POLYHEDRON,
     &CONVEX_POLYHEDRON_BOUND,
     &CROSS,
+    &CROSS_SECTION,
     &BOX,
     &CURL,
     &CUT_SPHERE,
@@ -308,6 +318,7 @@ pub static ALL: &[&Shape] = &[
     &INTERSECTION,
     &LENS,
     &LINK,
+    &LOFT,
     &MANDELBULB,
     &MATRIX,
     &MOON,
@@ -329,10 +340,12 @@ pub static ALL: &[&Shape] = &[
     &REFLECT,
     &REGULAR_POLYGON,
     &REPEAT,
+    &REPEAT_ENDLESS,
     &REPEAT_MIRRORED,
     &REPEAT_POLAR,
     &REPEAT_VARIED,
     &REVOLVE,
+    &REVOLVE_PART,
     &RHOMBUS,
     &RING,
     &RING_SECTOR,

@@ -7,6 +7,7 @@
 //! (interval branch and bound; Hansen and Walster, "Global Optimization Using Interval Analysis", 2004).
 
 use crate::formula::{Binary, Unary};
+use crate::mix;
 use crate::operation::{Run, Step, StepId, Steps};
 use crate::program::Program;
 use crate::scalar::{Constants, Dual, Interval, Scalar};
@@ -304,6 +305,19 @@ impl<'p> Sloper<'p> {
                     Settled::Second => Sloped { value, ..b },
                     Settled::NotSecond => Sloped { value, gradient: b.gradient.map(|side| -side), norm: b.norm },
                 }
+            }
+            Step::Mix { a, b, height, constants } => {
+                let (a, b, height) = (at(a), at(b), at(height));
+                let constants = self.constants(constants);
+                let input = Dual { value: height.value, gradient: [Interval::point(1.0)] };
+                let share = height.chain(mix::share(input, &Constants::new(input, constants, constants.len())));
+                let gap = b.value - a.value;
+                let slope = |axis: usize| {
+                    let of_values = Interval::mix(a.gradient[axis], b.gradient[axis], share.value);
+                    plus(of_values, times(gap, share.gradient[axis]))
+                };
+                let norm = a.norm.max(b.norm) + times_up(gap.abs().hi(), share.norm);
+                Sloped::new(Interval::mix(a.value, b.value, share.value), [0, 1, 2].map(slope), norm.next_up())
             }
             Step::Modify { table, from, constants } => {
                 let from = at(from);

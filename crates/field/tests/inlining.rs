@@ -6,6 +6,7 @@ mod common;
 use common::{Random, call};
 use freikugel_field::elementary::FUNCTIONS;
 use freikugel_field::kernel::{BATCH, Block, CombineJob, MapJob, ModifyJob, PrimitiveJob};
+use freikugel_field::shape::ProductTable;
 use freikugel_field::simd::{self, Level};
 use freikugel_field::{Evaluator, Kind, Points, Shape, Structure, shapes};
 use glam::DVec3;
@@ -62,7 +63,7 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
             (name, work)
         })
         .collect(),
-        Kind::Combine(table) | Kind::Extrude(table) => [
+        Kind::Combine(table) | Kind::Product(ProductTable { combine: table, .. }) => [
             ("values", table.kernels.values, 1),
             ("gradients", table.kernels.gradients, 4),
             ("seconds", table.kernels.seconds, 4),
@@ -93,7 +94,7 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
             (name, work)
         })
         .collect(),
-        Kind::Map(table) => [
+        Kind::Map(table) | Kind::Endless { fold: table, .. } => [
             ("values", table.kernels.values, 3),
             ("gradients", table.kernels.gradients, 12),
             ("seconds", table.kernels.seconds, 12),
@@ -109,9 +110,14 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
             (name, work)
         })
         .collect(),
-        Kind::Place(_) | Kind::Copies(_) | Kind::Paint | Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => {
-            Vec::new()
-        }
+        Kind::Place(_)
+        | Kind::Copies(_)
+        | Kind::Loft
+        | Kind::Paint
+        | Kind::Formula
+        | Kind::Warp
+        | Kind::Displace
+        | Kind::Twist => Vec::new(),
     }
 }
 

@@ -51,6 +51,7 @@ fn steps_read_only_what_comes_before_them() {
                 Action::Primitive { point, constants, .. } => (vec![*point], constants.clone()),
                 Action::Map { from, constants, .. } => (vec![*from], constants.clone()),
                 Action::Combine { a, b, constants, .. } => (vec![*a, *b], constants.clone()),
+                Action::Altered { from, by, .. } => (vec![*from, *by], 0..0),
                 Action::Modify { from, constants, .. } => (vec![*from], constants.clone()),
                 Action::Scale { from, factor } => (vec![*from], *factor..factor + 1),
                 other => panic!("{name} {seed}: {other:?} is of formulas"),

@@ -34,6 +34,16 @@ fn fields() -> Vec<(&'static str, Field)> {
         ("taper", cuboid([1.6, 1.2, 2.0]).taper(-0.7, 0.8, 0.3).rotate([1.0, 0.3, 0.0], 70.0)),
         ("swirl", cuboid([2.4, 0.5, 0.6]).swirl(150.0, 0.8)),
         ("curl", cuboid([2.4, 0.8, 0.8]).curl(40.0)),
+        (
+            "loft",
+            loft(2.4, [rectangle(1.8, 0.3).into(), circle(0.3).at([0.3, 0.2, 0.0]), rectangle(0.3, 1.8).into()])
+                .rotate([1.0, 0.3, 0.0], 80.0),
+        ),
+        (
+            "copies that overhang",
+            cuboid([1.4, 0.2, 0.3]).rotate([0.3, 0.2, 1.0], 40.0).repeat_endless([0.9, 0.7, 0.8])
+                & cuboid([2.4, 2.6, 1.2]).rotate([1.0, 1.0, 0.0], 20.0),
+        ),
         ("mixed", sphere(0.6).at([0.8, 0.0, 0.0]) | cuboid([0.8, 1.6, 0.8]).twist(90.0).at([-0.6, 0.0, 0.0])),
         ("bare formula", formula("x^4 + y^4 + z^4 - (x^2 + y^2 + z^2) - 0.1").into()),
     ]

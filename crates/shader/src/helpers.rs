@@ -6,6 +6,7 @@ use crate::names::Names;
 use crate::tree::{Expr, Function, Statement, Type};
 use freikugel_field::expr::{self, Graph, Slots};
 use freikugel_field::formula::{Binary, Unary};
+use freikugel_field::mix::mixed;
 use freikugel_field::{Constants, Dual, Kind, ParamKind, Shape};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -117,7 +118,7 @@ impl Helpers {
 
     /// A call of a primitive at a point.
     pub(crate) fn primitive(&mut self, want: Want, shape: &'static Shape, at: Expr, constants: Own) -> Expr {
-        let Kind::Primitive(table) = &shape.kind else { unreachable!("a primitive") };
+        let table = shape.distance().expect("a distance");
         let record = |graph: &Graph, count: usize| {
             let point: [expr::Expr<'_>; 3] = graph.point();
             (table.kernels.expr)(point.into(), &Constants::new(point[0], &Slots::at(0), count)).id()
@@ -166,10 +167,14 @@ impl Helpers {
     /// The point that a map takes a point to, or the map's derivatives there: those of the new point by each old coordinate, by
     /// columns.
     pub(crate) fn map(&mut self, wants: Mapping, shape: &'static Shape, at: Expr, constants: Own) -> Expr {
-        let Kind::Map(table) = &shape.kind else { unreachable!("a map") };
+        let table = shape.mapping().expect("a map");
+        let is_all = matches!(shape.kind, Kind::Map(_));
         let suffix = match wants {
-            Mapping::Point => "",
-            Mapping::Derivative => "derivative",
+            Mapping::Point if is_all => "",
+            Mapping::Derivative if is_all => "derivative",
+            // What else the shape does has its plain name.
+            Mapping::Point => "frame",
+            Mapping::Derivative => "frame_derivative",
         };
         let (passing, key) = self.passing(shape, constants.count, suffix);
         let known = match self.known.get(&key) {
@@ -195,6 +200,15 @@ impl Helpers {
             }
         };
         passing.call(known, vec![at], constants)
+    }
+
+    /// A mixture of two values by a height, or of two values with their gradients.
+    pub(crate) fn mix(&mut self, want: Want, shape: &'static Shape, values: &[Expr; 3], constants: Own) -> Expr {
+        let record = |graph: &Graph, count: usize| {
+            let [a, b, height] = graph.point();
+            mixed(a, b, height, &Constants::new(a, &Slots::at(0), count)).id()
+        };
+        self.of_values(want, shape, values, constants, &record)
     }
 
     /// A change of a value, or of a value with its gradient.
@@ -259,7 +273,7 @@ impl Helpers {
         passing.call(known, values.to_vec(), constants)
     }
 
-    /// Defines a function of one or two values.
+    /// Defines a function of up to three values.
     fn value_function(
         &mut self,
         want: Want,
@@ -271,9 +285,9 @@ impl Helpers {
     ) -> Known {
         let graph = Graph::new();
         // Inputs come first, so that they are there even if nothing reads them.
-        let _ = [0, 1].map(|input| graph.input(input));
+        let _ = graph.point();
         let result = graph.at(record(&graph, constants));
-        let letters = &["a", "b"][..count];
+        let letters = &["a", "b", "height"][..count];
         match want {
             Want::Value => {
                 let inputs: Vec<Expr> = letters.iter().map(|&letter| Expr::name(letter)).collect();
@@ -285,7 +299,7 @@ impl Helpers {
             Want::Gradient => {
                 let inputs: Vec<Expr> = letters.iter().map(|&letter| Expr::name(letter).member("w")).collect();
                 let derivatives = Graph::new();
-                let dual: Dual<expr::Expr<'_>, 2> = graph.differentiate(&[result], &derivatives).remove(0);
+                let dual: Dual<expr::Expr<'_>, 3> = graph.differentiate(&[result], &derivatives).remove(0);
                 let wanted: Vec<expr::Expr<'_>> = dual.gradient[..count].iter().copied().chain([dual.value]).collect();
                 let (mut body, mut results) = statements(&derivatives, &wanted, &inputs, passing);
                 let value = results.pop().expect("the value was wanted");
@@ -394,7 +408,7 @@ impl Helpers {
 
 /// How many rows a primitive's constants are, if it goes through all of them row by row and does nothing else.
 fn rows(shape: &Shape, count: usize) -> Option<usize> {
-    let Kind::Primitive(table) = &shape.kind else { return None };
+    let table = shape.distance()?;
     let graph = Graph::new();
     let point: [expr::Expr<'_>; 3] = graph.point();
     (table.kernels.expr)(point.into(), &Constants::new(point[0], &Slots::at(0), count));
@@ -492,7 +506,11 @@ fn reads(body: &[Statement], name: &str) -> bool {
 fn constant_names(shape: &Shape, count: usize) -> Vec<String> {
     let prepare = match &shape.kind {
         Kind::Primitive(table) => table.prepare,
-        Kind::Combine(table) | Kind::Extrude(table) => table.prepare,
+        Kind::Combine(table) => table.prepare,
+        Kind::Product(table) => match &table.frame {
+            Some(frame) if count > 0 => frame.prepare,
+            _ => table.combine.prepare,
+        },
         Kind::Map(table) => table.prepare,
         Kind::Modify(table) => table.prepare,
         _ => |args: &[f64]| args.to_vec(),
@@ -515,7 +533,7 @@ fn constant_names(shape: &Shape, count: usize) -> Vec<String> {
     let is_list = shape.about.params.iter().any(|param| param.kind.is_list());
     let constants = if is_list || shape.about.params.is_empty() { Vec::new() } else { prepare(&sample) };
     let mut names = Names::new();
-    ["p", "a", "b", "first"].into_iter().for_each(|name| names.take(name));
+    ["p", "a", "b", "height", "first"].into_iter().for_each(|name| names.take(name));
     let name = |place: usize| {
         let known = (constants.len() == count).then(|| constants[place]);
         let find =

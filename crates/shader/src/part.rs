@@ -76,7 +76,7 @@ impl Part {
     /// About how many simple operations it takes.
     pub(crate) fn cost(&self) -> usize {
         let loops = |shape: &freikugel_field::Shape, count: usize| match &shape.kind {
-            Kind::Primitive(table) => {
+            Kind::Primitive(table) | Kind::Endless { boxes: table, .. } => {
                 let graph = Graph::new();
                 let point = graph.point();
                 (table.kernels.expr)(point.into(), &freikugel_field::Constants::new(point[0], &Slots::at(0), count));
@@ -142,6 +142,9 @@ pub(crate) fn outline_key(outline: &Outline, with_regions: bool) -> String {
             }
             Action::Map { shape, from, at, constants } => format!("{} {from} {at} {constants:?}", shape.about.name),
             Action::Combine { shape, a, b, constants } => format!("{} {a} {b} {constants:?}", shape.about.name),
+            Action::Mix { shape, a, b, height, constants } => {
+                format!("{} {a} {b} {height} {constants:?}", shape.about.name)
+            }
             Action::Modify { shape, from, constants } => format!("{} {from} {constants:?}", shape.about.name),
             other => format!("{other:?}"),
         };
@@ -306,6 +309,11 @@ impl<'a> Walk<'a> {
                 let value = self.helpers.combine(want, shape, values, Own::new(base, constants));
                 self.bind(shape.about.name, self.ty(), value)
             }
+            Action::Mix { shape, a, b, height, constants } => {
+                let values = [*a, *b, *height].map(|step| self.read(step));
+                let value = self.helpers.mix(want, shape, &values, Own::new(base, constants));
+                self.bind(shape.about.name, self.ty(), value)
+            }
             Action::Modify { shape, from, constants } => {
                 let from = self.read(*from);
                 let value = self.helpers.modify(want, shape, from, Own::new(base, constants));
@@ -468,6 +476,15 @@ impl<'a> Walk<'a> {
                     let share = self.helpers.share(shape, values, Own::new(base, constants));
                     let share = if weight == Expr::Float(1.0) { share } else { weight.clone() * share };
                     let second = self.bind("share", Type::Float, share);
+                    weights[*a] = Some(self.bind("rest", Type::Float, weight - second.clone()));
+                    weights[*b] = Some(second);
+                }
+                Action::Mix { shape, a, b, height, constants } => {
+                    // What 0 and 1 mix to is the share of the second value.
+                    let height = self.values[*height].clone().expect("a value");
+                    let values = [Expr::Float(0.0), Expr::Float(1.0), height];
+                    let share = self.helpers.mix(Want::Value, shape, &values, Own::new(base, constants));
+                    let second = self.bind("share", Type::Float, weight.clone() * share);
                     weights[*a] = Some(self.bind("rest", Type::Float, weight - second.clone()));
                     weights[*b] = Some(second);
                 }

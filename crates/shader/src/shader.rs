@@ -13,7 +13,7 @@ use crate::sampled::{self, SampleError, Sampled};
 use crate::scene;
 use crate::target::MOST_UNIFORM_BYTES;
 use crate::tree::Item;
-use freikugel_field::{Action, Diagnostic, Field, Kind, Shape, Structure};
+use freikugel_field::{Action, Diagnostic, Field, Structure};
 use freikugel_render::{Plan, PrepareError};
 use freikugel_scene::{Light, Scene};
 use glam::DVec3;
@@ -403,8 +403,8 @@ fn part(source: Source) -> Result<Part, ShaderError> {
     let outline = structure.program(DVec3::ZERO).outline();
     // What is computed from coordinates other than by primitives has no scale of its own.
     let is_measured = !outline.steps.iter().any(|action| match action {
-        Action::Coordinate { .. } | Action::Literal { .. } => true,
-        Action::Map { shape: Shape { kind: Kind::Map(table), .. }, .. } => !table.is_short,
+        Action::Coordinate { .. } | Action::Literal { .. } | Action::Mix { .. } => true,
+        Action::Map { shape, .. } => shape.mapping().is_some_and(|table| !table.is_short),
         _ => false,
     });
     Ok(Part { source, structure, outline, base: 0, regions: Vec::new(), is_measured })

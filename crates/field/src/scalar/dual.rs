@@ -246,6 +246,23 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
     }
 
     #[inline(always)]
+    fn mix(a: Self, b: Self, share: Self) -> Self {
+        let of_values = a.zip(
+            b,
+            T::mix(a.value, b.value, share.value),
+            #[inline(always)]
+            |a, b| T::mix(a, b, share.value),
+        );
+        let gap = b.value - a.value;
+        of_values.zip(
+            share,
+            of_values.value,
+            #[inline(always)]
+            |slope, growth| slope + gap * growth,
+        )
+    }
+
+    #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         let slope = Self::safe_inverse(root) * 0.5;

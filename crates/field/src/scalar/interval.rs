@@ -373,6 +373,12 @@ impl Scalar for Interval {
         self.meet(other)
     }
 
+    /// Between its ends a mixture goes straight from one to the other.
+    fn mix(a: Self, b: Self, share: Self) -> Self {
+        let at = |share: f64| a * (Self::point(1.0) - Self::point(share)) + b * Self::point(share);
+        at(share.lo).hull(at(share.hi))
+    }
+
     fn core(self) -> Self {
         let middle = self.middle();
         if middle.is_finite() { Self { lo: middle, hi: middle } } else { self }

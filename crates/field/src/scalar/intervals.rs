@@ -336,6 +336,14 @@ impl<I: Simd> Scalar for Intervals<I> {
         Self { lo: (lo - error).max(zero), hi: (hi + error).min(one) }
     }
 
+    /// Between its ends a mixture goes straight from one to the other.
+    #[inline(always)]
+    fn mix(a: Self, b: Self, share: Self) -> Self {
+        let (least, most) = (Self::point(share.lo), Self::point(share.hi));
+        let one = share.lift(1.0);
+        (a * (one - least) + b * least).hull(a * (one - most) + b * most)
+    }
+
     #[inline(always)]
     fn agreed(self, other: Self) -> Self {
         // Of what can't be compared, `max` and `min` take the second one.

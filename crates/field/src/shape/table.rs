@@ -1,7 +1,8 @@
 //! The functions of each trait's items as data.
 
 use super::{
-    Combine, Copies, ExactForm, Hull, Kind, Map, Modify, Place, PlaceCall, Primitive, Settled, Special, Supports,
+    Combine, Copies, ExactForm, Hull, Kind, Map, Modify, Place, PlaceCall, Primitive, Product, RangeCall, Settled,
+    Shape, Special, Supports,
 };
 use crate::contract::{Contract, Dimension};
 use crate::expr::Expr;
@@ -56,12 +57,47 @@ pub struct PlaceTable {
 #[allow(missing_docs, reason = "documented at the trait's items of the same names")]
 pub struct MapTable {
     pub takes: Dimension,
+    pub gives: Dimension,
     pub is_short: bool,
     pub is_planar: bool,
     pub prepare: fn(&[f64]) -> Vec<f64>,
     pub contract: fn(&[f64], Contract, Supports<'_>) -> Result<Contract, String>,
     pub support: fn(&[f64], DVec3, Supports<'_>) -> f64,
     pub kernels: MapKernels,
+}
+
+/// The functions of a [`Product`].
+#[derive(Debug)]
+pub struct ProductTable {
+    /// See [`Product::FRAME`].
+    pub frame: Option<MapTable>,
+    /// See [`Product::range`].
+    pub range: fn(&[f64]) -> RangeCall,
+    /// The constants of the range's formula.
+    pub range_constants: fn(&[f64]) -> Vec<f64>,
+    /// How the figure's distance is combined with that from the range.
+    pub combine: CombineTable,
+}
+
+impl ProductTable {
+    /// The support in the frame, from that of the figure at the same level; see [`Primitive::support`].
+    pub fn support(&self, args: &[f64], direction: DVec3, level: f64, figure: Supports<'_>) -> f64 {
+        let (across, along) = (direction.with_z(0.0), DVec3::Z * direction.z);
+        let (shape, own) = (self.range)(args);
+        let range = |along| (range_table(shape).support)(&own, along, level);
+        (if across == DVec3::ZERO { 0.0 } else { figure(across) })
+            + if along == DVec3::ZERO { 0.0 } else { range(along) }
+    }
+}
+
+/// The functions of the primitive that a range is a call of.
+fn range_table(shape: &'static Shape) -> &'static PrimitiveTable {
+    shape.distance().expect("a range is a call of a primitive")
+}
+
+/// The constants of a range's formula.
+pub(crate) fn range_constants((shape, args): RangeCall) -> Vec<f64> {
+    (range_table(shape).prepare)(&args)
 }
 
 /// The functions of a [`Copies`].
@@ -167,12 +203,25 @@ impl MapTable {
     pub const fn of<M: Map>() -> Self {
         Self {
             takes: M::TAKES,
+            gives: M::GIVES,
             is_short: M::IS_SHORT,
             is_planar: M::IS_PLANAR,
             prepare: M::prepare,
             contract: M::contract,
             support: M::support,
             kernels: MapKernels::of::<M>(),
+        }
+    }
+}
+
+impl ProductTable {
+    /// The functions of one kind of product.
+    pub const fn of<P: Product>() -> Self {
+        Self {
+            frame: P::FRAME,
+            range: P::range,
+            range_constants: |args| range_constants(P::range(args)),
+            combine: CombineTable::of::<P>(),
         }
     }
 }

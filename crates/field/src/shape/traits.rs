@@ -1,6 +1,6 @@
 //! The traits that functions are written in.
 
-use super::{About, Shape};
+use super::{About, MapTable, Shape};
 use crate::contract::{Contract, Dimension};
 use crate::kernel::PrimitiveKernel;
 use crate::scalar::{Constants, Interval, Scalar};
@@ -197,8 +197,11 @@ pub trait Map: 'static {
     /// Description and parameters.
     const ABOUT: About;
 
-    /// Whether the child is a figure or a body; the result is a body. [`Dimension::Space`] takes both, and gives what it took.
+    /// Whether the child is a figure or a body.
     const TAKES: Dimension = Dimension::Space;
+
+    /// Whether the result is a figure or a body. What keeps figures in their plane takes both, and gives what it took.
+    const GIVES: Dimension = Dimension::Space;
 
     /// Whether the map never lengthens a distance, whatever its parameters, so that the child's distances stay bounds.
     /// What does lengthen them is marched by the slope of each cell of space.
@@ -224,6 +227,20 @@ pub trait Map: 'static {
     /// The formula. Write `#[inline(always)]` before it: a formula that is not inlined loses the instruction set.
     fn map<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> Vec3<S>;
 }
+
+/// A body that is, in some frame of space, the product of a figure and a range: it holds what lies within both, the figure in the
+/// plane of x and y and the range along z. Distances from both are the legs of a right triangle.
+pub trait Product: Combine {
+    /// Where points are in the frame; `None` for space as it is. The figure's plane and the range may each by itself not lengthen
+    /// a distance, whatever the parameters.
+    const FRAME: Option<MapTable> = None;
+
+    /// The range: a call of a primitive that looks at z alone, the same one for all parameters.
+    fn range(args: &[f64]) -> RangeCall;
+}
+
+/// A call of a [`Primitive`] with its arguments.
+pub type RangeCall = (&'static Shape, Vec<f64>);
 
 /// A union of copies of the child in several places.
 pub trait Copies: 'static {

@@ -1,8 +1,7 @@
 //! Extrusion of a plane figure. Exact where the figure's distance is.
-//!
-//! The distance from a product of sets follows from those of its factors: outside both, they are the legs of a right triangle;
-//! otherwise the larger one counts. The gradients of the two are at right angles, so that the slope is that of the steeper.
 
+use super::product;
+use super::slab::SLAB;
 use crate::shape_prelude::*;
 
 /// See [`Extrude::extrude`].
@@ -10,7 +9,7 @@ use crate::shape_prelude::*;
 pub struct Extrusion;
 
 /// The descriptor of [`Extrude::extrude`].
-pub static EXTRUDE: Shape = Shape::extrude::<Extrusion>();
+pub static EXTRUDE: Shape = Shape::product::<Extrusion>();
 
 /// Making a body of a plane figure.
 pub trait Extrude: Into<Field> {
@@ -48,16 +47,12 @@ impl Combine for Extrusion {
         vec![args[1]]
     }
 
-    fn contract(args: &[f64], figure: Contract, _height: Contract) -> Result<Contract, String> {
+    fn contract(args: &[f64], figure: Contract, _range: Contract) -> Result<Contract, String> {
         let &[height, round] = args else { unreachable!("two numbers") };
         if round > height / 2.0 {
             return Err("`round` of `extrude` must not exceed half the height".into());
         }
-        if !figure.signed {
-            return Err(
-                "a line has no inside to be extruded; give it a thickness first, for instance with `offset`".into()
-            );
-        }
+        let product = product::contract(figure)?;
         // The rounded figure is the shrunk one grown again, which is exact outside if shrinking is.
         let is_shrunk = round > 0.0;
         let outside = if is_shrunk && figure.inside != Metric::Exact {
@@ -68,21 +63,18 @@ impl Combine for Extrusion {
             figure.outside
         };
         let inside = if is_shrunk { figure.inside.max(Metric::Bound) } else { figure.inside };
-        Ok(Contract { outside, inside, lipschitz: figure.lipschitz.map(|slope| slope.max(1.0)), ..figure })
+        Ok(Contract { outside, inside, ..product })
     }
 
-    fn settle(a: Interval, b: Interval, constants: &[f64]) -> Settled {
-        // Never to the height alone: ends look as the figure does, too. Rounding moves values.
-        if constants[0] == 0.0 && b.hi() < 0.0 && b.hi() < a.lo() { Settled::First } else { Settled::Open }
+    fn settle(figure: Interval, range: Interval, constants: &[f64]) -> Settled {
+        // Rounding moves values.
+        if constants[0] == 0.0 { product::settle(figure, range) } else { Settled::Open }
     }
 
     #[inline(always)]
-    fn combine<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
+    fn combine<S: Scalar>(figure: S, range: S, c: &Constants<'_, S>) -> S {
         let [round] = c.get();
-        let zero = a.lift(0.0);
-        // The height is given without what is rounded off.
-        let a = a + round;
-        S::select(zero.lt(a) & zero.lt(b), S::length2(a, b), a.max(b)) - round
+        product::distance(figure + round, range + round) - round
     }
 
     /// All of it looks as the figure does.
@@ -92,14 +84,8 @@ impl Combine for Extrusion {
     }
 }
 
-/// The constants of the slab that the body lies in, without what is rounded off.
-pub(crate) fn core(args: &[f64]) -> Vec<f64> {
-    vec![args[0] / 2.0 - args[1]]
-}
-
-/// The support of an extruded figure.
-pub(crate) fn support(args: &[f64], direction: DVec3, level: f64, figure: impl Fn(DVec3, f64) -> f64) -> f64 {
-    let across = DVec3::new(direction.x, direction.y, 0.0);
-    let height = (args[0] / 2.0 + level) * direction.z.abs();
-    if across == DVec3::ZERO { height } else { figure(across, level) + height }
+impl Product for Extrusion {
+    fn range(args: &[f64]) -> RangeCall {
+        (&SLAB, vec![args[0], 2.0])
+    }
 }

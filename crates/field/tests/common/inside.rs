@@ -1,8 +1,8 @@
 //! What lies inside of shapes, by set logic and the definition of each, never by its distance.
 
 use super::{is_blend, is_carved};
-use freikugel_field::Field;
 use freikugel_field::shape::Kind;
+use freikugel_field::{Extent, Field, extent, shapes};
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
 /// Whether a point lies in a field's shape, from set logic and each primitive's own definition, never from its distance.
@@ -211,6 +211,26 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
                 }
             }
             contains(children.next()?, q)?
+        }
+        ("revolve_part", [angle, offset]) => {
+            p.y.atan2(p.x).abs() < angle / 2.0 && contains(children.next()?, DVec3::new(across - offset, p.z, 0.0))?
+        }
+        ("cross_section", [height]) => contains(children.next()?, DVec3::new(p.x, p.y, *height))?,
+        ("repeat_endless", spacing) => {
+            // All copies whose boxes hold the point; along other axes the shape may have no end.
+            let child = children.next()?;
+            let Extent::Finite(bounds) = extent(&(child.clone() & shapes::cuboid([1e6; 3]))) else {
+                return Some(false);
+            };
+            let copies = |axis: usize| match spacing[axis] {
+                0.0 => 0..=0,
+                s => {
+                    ((p[axis] - bounds.max[axis]) / s).floor() as i32..=((p[axis] - bounds.min[axis]) / s).ceil() as i32
+                }
+            };
+            let cells = copies(0).flat_map(|x| copies(1).flat_map(move |y| copies(2).map(move |z| [x, y, z])));
+            let copy = |cell: [i32; 3]| p - DVec3::from_slice(spacing) * DVec3::from(cell.map(f64::from));
+            all(cells.map(|cell| contains(child, copy(cell))))?.into_iter().any(|copy| copy)
         }
         ("symmetry", [axes, k]) => {
             let folded = *axes as usize + 1;

@@ -138,8 +138,8 @@ pub(crate) fn call(shape: &'static Shape, depth: u32, random: &mut Random) -> Fi
 
 fn call_in(dimension: Dimension, shape: &'static Shape, depth: u32, random: &mut Random) -> Field {
     let children_in = match &shape.kind {
-        Kind::Extrude(_) => Dimension::Plane,
-        Kind::Map(table) if table.takes == Dimension::Plane => Dimension::Plane,
+        Kind::Product(_) | Kind::Loft => Dimension::Plane,
+        Kind::Map(table) if !table.is_planar => table.takes,
         _ => dimension,
     };
     for _ in 0..1000 {
@@ -178,7 +178,7 @@ fn call_in(dimension: Dimension, shape: &'static Shape, depth: u32, random: &mut
 /// Whether the values of a shape are distances or bounds of them. What needs formulas or warps space has tests of its own.
 pub(crate) fn is_measured(shape: &Shape) -> bool {
     match &shape.kind {
-        Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist => false,
+        Kind::Formula | Kind::Warp | Kind::Displace | Kind::Twist | Kind::Loft => false,
         Kind::Map(table) => table.is_short,
         _ => true,
     }
@@ -188,8 +188,8 @@ pub(crate) fn is_measured(shape: &Shape) -> bool {
 fn can_be(shape: &Shape, dimension: Dimension) -> bool {
     match (&shape.kind, dimension) {
         (Kind::Primitive(table), _) => table.dimension == dimension,
-        (Kind::Extrude(_), _) => dimension == Dimension::Space,
-        (Kind::Map(table), Dimension::Plane) => table.is_planar,
+        (Kind::Product(_), _) => dimension == Dimension::Space,
+        (Kind::Map(table), _) => table.gives == dimension || table.is_planar,
         (Kind::Copies(_), Dimension::Plane) => shape.about.name == "repeat",
         (Kind::Place(_), Dimension::Plane) => ["scale", "stretch"].contains(&shape.about.name),
         _ => true,

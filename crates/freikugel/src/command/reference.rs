@@ -38,15 +38,17 @@ const GROUPS: [Group; 6] = [
     ("Bodies", "Round the origin, unless their parameters say otherwise.", |shape| {
         is_primitive(shape, Dimension::Space) || matches!(shape.kind, Kind::Formula)
     }),
-    ("Combinations", "Several shapes become one, from the first to the last.", |shape| shape.arity() == Arity::Many),
-    ("From the plane to space", "A figure becomes a body.", |shape| {
-        matches!(&shape.kind, Kind::Extrude(_))
-            || matches!(&shape.kind, Kind::Map(table) if table.takes == Dimension::Plane)
+    ("Combinations", "Several shapes become one, from the first to the last.", |shape| {
+        matches!(shape.kind, Kind::Combine(_))
+    }),
+    ("From the plane to space, and back", "A figure becomes a body, or a body a figure.", |shape| {
+        matches!(&shape.kind, Kind::Product(_) | Kind::Loft)
+            || matches!(&shape.kind, Kind::Map(table) if table.takes != table.gives)
     }),
     ("Places and maps of space", "They move, turn, bend, fold or repeat what they are given.", |shape| {
         match &shape.kind {
-            Kind::Map(table) => table.takes == Dimension::Space,
-            Kind::Place(_) | Kind::Copies(_) | Kind::Warp | Kind::Twist => true,
+            Kind::Map(table) => table.takes == table.gives,
+            Kind::Place(_) | Kind::Copies(_) | Kind::Endless { .. } | Kind::Warp | Kind::Twist => true,
             _ => false,
         }
     }),
