@@ -3,7 +3,7 @@
 mod common;
 
 use common::inside::contains;
-use common::{Random, every_shape, notation, tree};
+use common::{Random, calls, every_shape, large_tree, notation, tree};
 use freikugel_field::shapes::Offset;
 use freikugel_field::{Extent, Field, Metric, Program, Structure, analyse, extent};
 use glam::DVec3;
@@ -14,11 +14,16 @@ fn program(field: &Field) -> Program {
     Structure::compile(std::slice::from_ref(field)).expect("a sound field").program(DVec3::ZERO)
 }
 
-/// Every shape over primitives, and random trees.
+/// Every shape over primitives, and random trees, also large ones.
 fn fields() -> impl Iterator<Item = (String, Field)> {
     let shapes = every_shape(CALLS).map(|(name, seed, field)| (format!("{name} {seed}"), field));
     let trees = (0..150).map(|seed| (format!("tree {seed}"), tree(4, &mut Random::new(seed + 1000))));
-    shapes.chain(trees)
+    let large = (0..4).map(|seed| {
+        let field = large_tree(200, &mut Random::new(seed + 1));
+        assert!(calls(&field) >= 150, "{} calls", calls(&field));
+        (format!("tree of {} calls, {seed}", calls(&field)), field)
+    });
+    shapes.chain(trees).chain(large)
 }
 
 #[test]

@@ -106,7 +106,7 @@ impl Notation<Vec<u8>> for FileNotation {
 ///
 /// # Errors
 /// The line that is none, as the end of a sentence.
-pub(crate) fn rows(text: &str, width: usize) -> Result<Vec<f64>, String> {
+pub(crate) fn rows_of(text: &str, width: usize) -> Result<Vec<f64>, String> {
     let mut numbers = Vec::new();
     for (number, line) in (1..).zip(text.lines()) {
         let line = line.split('#').next().unwrap_or_default();
@@ -124,19 +124,19 @@ pub(crate) fn rows(text: &str, width: usize) -> Result<Vec<f64>, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::rows;
+    use super::rows_of;
 
     #[test]
     fn rows_are_read_in_all_usual_forms() {
         for text in ["1 2 3\n4 5 6", "x,y,z\n1,2,3\n4,5,6\n", "# points\n1;2;3 # first\n\n 4\t5\t6 255 0 0\r\n"] {
-            assert_eq!(rows(text, 3), Ok(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), "{text:?}");
+            assert_eq!(rows_of(text, 3), Ok(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), "{text:?}");
         }
     }
 
     #[test]
     fn what_is_no_row_is_named() {
         for text in ["1 2 3\n4 5", "1 2 3\n\n4 nan 6", "1 2"] {
-            let fault = rows(text, 3).expect_err(text);
+            let fault = rows_of(text, 3).expect_err(text);
             let line = text.lines().count();
             assert!(fault.contains(&format!("line {line}")), "{fault}");
         }

@@ -137,42 +137,61 @@ pub(crate) fn call(shape: &'static Shape, depth: u32, random: &mut Random) -> Fi
 }
 
 fn call_in(dimension: Dimension, shape: &'static Shape, depth: u32, random: &mut Random) -> Field {
+    call_over(dimension, shape, 1, random, |dimension, random| tree_in(dimension, depth, random))
+}
+
+/// A random sound call over children that are made as often as `tries` calls over the same ones are all unsound.
+fn call_over(
+    dimension: Dimension,
+    shape: &'static Shape,
+    tries: usize,
+    random: &mut Random,
+    child: impl Fn(Dimension, &mut Random) -> Field,
+) -> Field {
     let children_in = match &shape.kind {
         Kind::Product(_) | Kind::Loft => Dimension::Plane,
         Kind::Map(table) if !table.is_planar => table.takes,
         _ => dimension,
     };
-    for _ in 0..1000 {
-        let mut args = Vec::new();
-        for param in shape.about.params {
-            if ["order", "exponent"].contains(&param.name) && param.kind == ParamKind::Positive {
-                // Of a polynomial, which is any number above 1, or of a superellipse.
-                args.push(random.range(1.2, 4.0).into());
-                continue;
-            }
-            if param.kind == ParamKind::Text {
-                let known = match param.name {
-                    "d" => &PATHS[..],
-                    "picture" => &PICTURES[..],
-                    _ => &TEXTS[..],
-                };
-                args.extend(known[random.below(known.len())].chars().map(|c| Value::from(u32::from(c))));
-                continue;
-            }
-            arguments(param.kind, random, &mut args);
+    let mut children: Vec<Field> = Vec::new();
+    for attempt in 0..1000 {
+        let args = random_arguments(shape, random);
+        if attempt % tries == 0 {
+            let count = match shape.arity() {
+                Arity::None => 0,
+                Arity::One => 1,
+                Arity::Many => 2 + random.below(2),
+            };
+            children = (0..count).map(|_| child(children_in, random)).collect();
         }
-        let children: Vec<Field> = match shape.arity() {
-            Arity::None => Vec::new(),
-            Arity::One => vec![tree_in(children_in, depth, random)],
-            Arity::Many => (0..2 + random.below(2)).map(|_| tree_in(children_in, depth, random)).collect(),
-        };
         let material = matches!(shape.kind, Kind::Paint).then(|| freikugel_field::MaterialId(random.below(3) as u32));
-        let field = Field::with_origin(shape, args, children, material, Origin::Document(0));
+        let field = Field::with_origin(shape, args, children.clone(), material, Origin::Document(0));
         if analyse(&field).0.is_some() {
             return field;
         }
     }
     panic!("no sound call of {} found", shape.about.name);
+}
+
+/// Random arguments of a shape, each sound by itself.
+fn random_arguments(shape: &Shape, random: &mut Random) -> Vec<Value> {
+    let mut args = Vec::new();
+    for param in shape.about.params {
+        if ["order", "exponent"].contains(&param.name) && param.kind == ParamKind::Positive {
+            // Of a polynomial, which is any number above 1, or of a superellipse.
+            args.push(random.range(1.2, 4.0).into());
+        } else if param.kind == ParamKind::Text {
+            let known = match param.name {
+                "d" => &PATHS[..],
+                "picture" => &PICTURES[..],
+                _ => &TEXTS[..],
+            };
+            args.extend(known[random.below(known.len())].chars().map(|c| Value::from(u32::from(c))));
+        } else {
+            arguments(param.kind, random, &mut args);
+        }
+    }
+    args
 }
 
 /// Whether the values of a shape are distances or bounds of them. What needs formulas or warps space has tests of its own.
@@ -211,6 +230,29 @@ fn tree_in(dimension: Dimension, depth: u32, random: &mut Random) -> Field {
     let choices: Vec<_> = measured().filter(fits).collect();
     let shape = choices[random.below(choices.len())];
     call_in(dimension, shape, depth.saturating_sub(1), random)
+}
+
+/// A random sound body of about so many calls.
+pub(crate) fn large_tree(calls: usize, random: &mut Random) -> Field {
+    grown(Dimension::Space, calls, random)
+}
+
+fn grown(dimension: Dimension, calls: usize, random: &mut Random) -> Field {
+    if calls < 2 {
+        return tree_in(dimension, 0, random);
+    }
+    // Copies of large trees would be too many to look at.
+    let is_small = |shape: &Shape| calls < 4 || !matches!(shape.kind, Kind::Copies(_) | Kind::Endless { .. });
+    let fits = |shape: &&'static Shape| can_be(shape, dimension) && shape.arity() != Arity::None && is_small(shape);
+    let choices: Vec<_> = measured().filter(fits).collect();
+    let shape = choices[random.below(choices.len())];
+    let share = if shape.arity() == Arity::One { calls - 1 } else { (calls - 1) * 2 / 5 };
+    call_over(dimension, shape, 50, random, |dimension, random| grown(dimension, share, random))
+}
+
+/// How many calls a field consists of.
+pub(crate) fn calls(field: &Field) -> usize {
+    1 + field.node().children.iter().map(calls).sum::<usize>()
 }
 
 /// A field on one line.

@@ -1,6 +1,6 @@
 //! Parameters of shapes: how each [`ParamKind`] is written.
 
-use crate::files::{FileNotation, rows};
+use crate::files::{FileNotation, rows_of};
 use crate::notation::{Notation, direction_schema, index_of, named_direction, numbers_schema, tidy, tidy_degrees};
 use crate::reader::{Reader, span};
 use crate::schema::Definitions;
@@ -211,7 +211,7 @@ fn in_file(reader: &mut Reader, kind: ParamKind, value: &Written<'_>) -> Option<
     if kind == ParamKind::Text {
         return Some(characters(&text));
     }
-    let numbers = rows(&text, kind.width());
+    let numbers = rows_of(&text, kind.width());
     numbers.map_err(|fault| reader.error(span(value), format!("the file of {} {fault}", reader.label()), None)).ok()
 }
 
