@@ -119,11 +119,9 @@ impl Lines {
     /// A part of a curve: two arcs, or those of its halves.
     fn stretch(&mut self, curve: Curve<'_>, [low, high]: [f64; 2], depth: u32) {
         let ((from, first), (to, last)) = (curve(low), curve(high));
-        let arcs = biarc([from, to], [first.normalize(), last.normalize()]);
-        match arcs {
-            Some(arcs) if depth == 0 || self.fits(&arcs, |share| curve(low + (high - low) * share).0) => {
-                self.push(&arcs)
-            }
+        let point = |share: f64| curve(low + (high - low) * share).0;
+        match biarc([from, to], [first.normalize(), last.normalize()]) {
+            Some(arcs) if depth == 0 || self.fits(&arcs, point) => self.push(&arcs),
             None if depth == 0 => self.corners.push([from.x, from.y, 0.0]),
             _ => {
                 let middle = (low + high) / 2.0;
