@@ -23,8 +23,8 @@ pub static COLUMNS_INTERSECTION: Shape = blend::intersection::<Columns>(About {
     summary: "An intersection with a row of columns along its edges; materials mix across them.",
     params: &[blend::K, COLUMNS, blend::MIX, blend::KEEP],
     elsewhere: &["fOpIntersectionColumns"],
-    example: r#"{ "columns_intersection": { "k": 0.3, "columns": 4, "shapes":
-        [ { "sphere": { "radius": 0.9 } }, { "box": { "size": 1.4 } } ] } }"#,
+    example: r#"{ "columns_intersection": { "k": 0.4, "columns": 4, "shapes":
+        [ { "box": { "size": [3, 3, 1] } }, { "cylinder": { "radius": 0.9, "height": 2 } } ] } }"#,
 });
 
 /// The descriptor of [`columns_difference`].
@@ -33,8 +33,8 @@ pub static COLUMNS_DIFFERENCE: Shape = blend::difference::<Columns>(About {
     summary: "A difference with a row of columns along the cut's edges; materials mix across them.",
     params: &[blend::K, COLUMNS, blend::MIX, blend::KEEP],
     elsewhere: &["fOpDifferenceColumns"],
-    example: r#"{ "columns_difference": { "k": 0.25, "columns": 4, "shapes":
-        [ { "box": { "size": 1.4 } }, { "sphere": { "radius": 0.9 } } ] } }"#,
+    example: r#"{ "columns_difference": { "k": 0.4, "columns": 4, "shapes":
+        [ { "box": { "size": [1.8, 1.8, 0.9] } }, { "cylinder": { "radius": 0.4, "height": 2 } } ] } }"#,
 });
 
 /// Everything that lies in any of the shapes, with a row of columns in the seams; `k` is the visible size.
@@ -72,7 +72,7 @@ impl Family for Columns {
         params: &[blend::K, COLUMNS, blend::MIX],
         elsewhere: &["fOpUnionColumns"],
         example: r#"{ "columns_union": { "k": 0.4, "columns": 4, "shapes":
-            [ { "sphere": { "radius": 0.7 } }, { "box": { "size": [2, 0.6, 0.6] } } ] } }"#,
+            [ { "box": { "size": [1.8, 1.8, 0.4] } }, { "cylinder": { "radius": 0.35, "height": 1.6 } } ] } }"#,
     };
 
     const OWN: usize = 1;

@@ -67,7 +67,7 @@ impl Primitive for Hyperbola {
             ),
         ],
         elsewhere: &["sdHyperbola", "conic section"],
-        example: r#"{ "revolve": { "shape": { "hyperbola": { "width": 1.8, "height": 1.2, "radius": 0.1 } } } }"#,
+        example: r#"{ "extrude": { "height": 0.4, "shape": { "hyperbola": { "width": 1.8, "height": 1.6, "radius": 0.06 } } } }"#,
     };
 
     const DIMENSION: Dimension = Dimension::Plane;

@@ -27,7 +27,7 @@ impl Special for Parabola {
             Param::required("height", ParamKind::Positive, "Full height; the vertex is the lowest point."),
         ],
         elsewhere: &["sdParabola", "sdParabolaSegment", "parabola_segment"],
-        example: r#"{ "revolve": { "shape": { "parabola": { "width": 1.8, "height": 1.2 } } } }"#,
+        example: r#"{ "extrude": { "height": 0.4, "shape": { "parabola": { "width": 1.6, "height": 1.6 } } } }"#,
     };
 
     fn general(args: &[f64]) -> Vec<f64> {
