@@ -6,6 +6,32 @@
 use crate::curve::Bezier;
 use glam::DVec3;
 
+/// A curve of which both halves are curves of the same kind.
+pub(crate) trait Divisible: Clone {
+    /// Points of which the first and the last are its ends, where it leads from or to the nearest one in order that lies elsewhere.
+    fn controls(&self) -> Vec<DVec3>;
+
+    /// The point at `t`, 0 for the beginning and 1 for the end.
+    fn at(&self, t: f64) -> DVec3;
+
+    /// The curves before and after the middle, each over 0 to 1.
+    fn halves(&self) -> [Self; 2];
+}
+
+impl Divisible for Bezier<DVec3> {
+    fn controls(&self) -> Vec<DVec3> {
+        self.points().to_vec()
+    }
+
+    fn at(&self, t: f64) -> DVec3 {
+        self.at(t)
+    }
+
+    fn halves(&self) -> [Self; 2] {
+        self.split(0.5)
+    }
+}
+
 /// Pieces of a curve are halved at most so often.
 const DEEPEST: u32 = 12;
 
@@ -26,7 +52,7 @@ pub(crate) const ROW: usize = 13;
 pub(crate) struct Arc3 {
     pub(crate) from: DVec3,
     pub(crate) to: DVec3,
-    direction: DVec3,
+    pub(crate) direction: DVec3,
 }
 
 impl Arc3 {
@@ -42,7 +68,10 @@ impl Arc3 {
         if across.length_squared() < PARALLEL {
             return (along, along.any_orthonormal_vector(), 0.0);
         }
-        (along, across.normalize(), libm::atan2(across.length(), self.direction.dot(along)))
+        let half_turn = libm::atan2(across.length(), self.direction.dot(along));
+        // Of a short difference, rounding errors are a large part: once more, so that both are at a right angle.
+        let across = across.normalize();
+        (along, (across - along * across.dot(along)).normalize(), half_turn)
     }
 
     /// Half of the angle that it turns by; 0 for a straight edge.
@@ -69,7 +98,28 @@ impl Arc3 {
         [mx, my, mz, ax, ay, az, nx, ny, nz, half, sin, cos, radius]
     }
 
-    fn distance(&self, p: DVec3) -> f64 {
+    /// Its length.
+    pub(crate) fn length(&self) -> f64 {
+        let (chord, half_turn) = (self.from.distance(self.to), self.half_turn());
+        if half_turn > 0.0 { chord * half_turn / libm::sin(half_turn) } else { chord }
+    }
+
+    /// The share of its length that lies before the point nearest to `p`.
+    pub(crate) fn share_before(&self, p: DVec3) -> f64 {
+        let row = self.constants();
+        let (q, along, across) =
+            (p - DVec3::from_slice(&row), DVec3::from_slice(&row[3..]), DVec3::from_slice(&row[6..]));
+        let [half, cos, radius] = [row[9], row[11], row[12]];
+        let (place, end) = if radius > 0.0 {
+            (libm::atan2(q.dot(along), q.dot(across) + radius * cos), self.half_turn())
+        } else {
+            (q.dot(along), half)
+        };
+        if end > 0.0 { (place / end).clamp(-1.0, 1.0) / 2.0 + 0.5 } else { 0.0 }
+    }
+
+    /// The distance of a point.
+    pub(crate) fn distance(&self, p: DVec3) -> f64 {
         let row = self.constants();
         let q = p - DVec3::from_slice(&row);
         let (along, across) = (DVec3::from_slice(&row[3..]), DVec3::from_slice(&row[6..]));
@@ -96,33 +146,48 @@ pub(crate) fn reach(row: &[f64], direction: DVec3) -> f64 {
     direction.dot(middle) + half * forward.abs()
 }
 
-/// Arcs that are at most `tolerance` away from a Bézier curve.
-pub(crate) fn of_curve(curve: &Bezier<DVec3>, tolerance: f64) -> Vec<Arc3> {
-    let mut arcs = Vec::new();
-    piece(curve, tolerance, DEEPEST, &mut arcs);
-    arcs
+/// Arcs that are at most `tolerance` away from a curve.
+pub(crate) fn of_curve<C: Divisible>(curve: &C, tolerance: f64) -> Vec<Arc3> {
+    let fits = |piece: &C, arcs: &[Arc3]| {
+        places().all(|place| {
+            let point = piece.at(place);
+            arcs.iter().map(|arc| arc.distance(point)).fold(f64::INFINITY, f64::min) <= tolerance
+        })
+    };
+    pieces(curve, &fits).into_iter().flat_map(|(_, arcs)| arcs).collect()
 }
 
-fn piece(curve: &Bezier<DVec3>, tolerance: f64, depth: u32, arcs: &mut Vec<Arc3>) {
-    let points = curve.points();
-    let last = points[points.len() - 1];
+/// Where between both ends a piece of a curve is compared with its arcs.
+pub(crate) fn places() -> impl Iterator<Item = f64> {
+    (1..=PLACES).map(|place| f64::from(place) / f64::from(PLACES + 1))
+}
+
+/// A curve in pieces, each with the arcs that stand for it: as few as `fits` lets pass. A piece that is one point has none.
+pub(crate) fn pieces<C: Divisible>(curve: &C, fits: &impl Fn(&C, &[Arc3]) -> bool) -> Vec<(C, Vec<Arc3>)> {
+    let mut pieces = Vec::new();
+    halve(curve.clone(), fits, DEEPEST, &mut pieces);
+    pieces
+}
+
+fn halve<C: Divisible>(curve: C, fits: &impl Fn(&C, &[Arc3]) -> bool, depth: u32, pieces: &mut Vec<(C, Vec<Arc3>)>) {
+    let controls = curve.controls();
+    let (first, last) = (controls[0], controls[controls.len() - 1]);
     if depth == 0 {
-        return arcs.push(Arc3::straight(points[0], last));
+        return pieces.push((curve, vec![Arc3::straight(first, last)]));
     }
-    if points.iter().all(|point| *point == points[0]) {
-        return;
+    if controls.iter().all(|point| *point == first) {
+        return pieces.push((curve, Vec::new()));
     }
-    if let Some(found) = biarc(points) {
-        let is_near = (1..=PLACES).all(|place| {
-            let point = curve.at(f64::from(place) / f64::from(PLACES + 1));
-            found.iter().map(|arc| arc.distance(point)).fold(f64::INFINITY, f64::min) <= tolerance
-        });
-        if is_near && found.iter().all(|arc| 2.0 * arc.half_turn() <= MOST_TURN * 1.01) {
-            return arcs.extend(found.into_iter().filter(|arc| arc.from != arc.to));
+    if let Some(arcs) = biarc(&controls) {
+        let is_tame = arcs.iter().all(|arc| 2.0 * arc.half_turn() <= MOST_TURN * 1.01);
+        if is_tame && fits(&curve, &arcs) {
+            let is_straight = arcs.iter().all(|arc| arc.half_turn() == 0.0);
+            let arcs = if is_straight { vec![Arc3::straight(first, last)] } else { arcs.to_vec() };
+            return pieces.push((curve, arcs.into_iter().filter(|arc| arc.from != arc.to).collect()));
         }
     }
-    for half in curve.split(0.5) {
-        piece(&half, tolerance, depth - 1, arcs);
+    for half in curve.halves() {
+        halve(half, fits, depth - 1, pieces);
     }
 }
 
@@ -203,6 +268,11 @@ mod tests {
             .map(|angle| centre + (along * angle.sin() + across * angle.cos()) * row[12])
             .collect();
         assert!(points[0].distance(arc.from) < 1e-12 && points[4000].distance(arc.to) < 1e-12);
+        let length: f64 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        assert!((arc.length() - length).abs() < 1e-6);
+        for (step, point) in points.iter().enumerate() {
+            assert!((arc.share_before(*point) - step as f64 / 4000.0).abs() < 1e-9);
+        }
         for direction in [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z, DVec3::ONE] {
             let farthest = points.iter().map(|point| point.dot(direction)).fold(f64::NEG_INFINITY, f64::max);
             assert!((reach(&row, direction) - farthest).abs() < 1e-6, "{direction}");

@@ -99,6 +99,10 @@ pub mod svg_path;
 pub mod swirl;
 pub mod symmetry;
 pub mod taper;
+pub mod tapered_b_spline;
+pub mod tapered_bezier;
+pub mod tapered_spline;
+pub mod tapered_tube;
 pub mod tetrahedron;
 pub mod text;
 pub mod tongue;
@@ -206,6 +210,10 @@ pub use svg_path::*;
 pub use swirl::*;
 pub use symmetry::*;
 pub use taper::*;
+pub use tapered_b_spline::*;
+pub use tapered_bezier::*;
+pub use tapered_spline::*;
+pub use tapered_tube::*;
 pub use tetrahedron::*;
 pub use text::*;
 pub use tongue::*;
@@ -329,6 +337,10 @@ pub static ALL: &[&Shape] = &[
     &SWIRL,
     &SYMMETRY,
     &TAPER,
+    &TAPERED_B_SPLINE,
+    &TAPERED_BEZIER,
+    &TAPERED_SPLINE,
+    &TAPERED_TUBE,
     &TETRAHEDRON,
     &TEXT,
     &TONGUE,

@@ -77,6 +77,8 @@ pub enum ParamKind {
     Points2,
     /// A list of points: x, y, z.
     Points3,
+    /// A list of balls: x, y, z, radius. No radius is negative, and one is above 0.
+    Balls,
     /// One or several closed lines of the plane: lists of corners x, y and the angle by which the edge to the next corner turns
     /// to the left, 0 for a straight one; stored with a fourth number, 1 for the last corner of a line and otherwise 0.
     Contours,
@@ -108,13 +110,26 @@ impl ParamKind {
             | Self::Angles
             | Self::Points3
             | Self::Counts(..) => 3,
-            Self::Quaternion | Self::Quadruple | Self::Region | Self::HalfSpaces | Self::Contours => 4,
+            Self::Quaternion
+            | Self::Quadruple
+            | Self::Region
+            | Self::HalfSpaces
+            | Self::Contours
+            | Self::Balls => 4,
         }
     }
 
     /// Whether the value is a list of entries.
     pub const fn is_list(self) -> bool {
-        matches!(self, Self::HalfSpaces | Self::Points2 | Self::Points3 | Self::Contours | Self::Text)
+        matches!(
+            self,
+            Self::HalfSpaces
+                | Self::Points2
+                | Self::Points3
+                | Self::Balls
+                | Self::Contours
+                | Self::Text
+        )
     }
 
     /// Why `value` is not one of this kind, or `None` if it is. The numbers are as stored: angles in radians.
@@ -155,6 +170,15 @@ impl ParamKind {
                 (DVec3::new(plane[0], plane[1], plane[2]).length() < SHORTEST_DIRECTION)
                     .then(|| format!("entry {i} has a zero normal"))
             }),
+            Self::Balls => match value.chunks(4).position(|ball| ball[3] < 0.0) {
+                Some(index) => Some(format!(
+                    "must have radii of 0 or more, but entry {} has {}",
+                    index + 1,
+                    brief(value[4 * index + 3])
+                )),
+                None if value.chunks(4).all(|ball| ball[3] == 0.0) => Some("must have a radius above 0".into()),
+                None => None,
+            },
             Self::Contours => value.chunks(4).enumerate().find_map(|(i, corner)| {
                 (corner[2].abs() >= std::f64::consts::TAU).then(|| {
                     format!("must have edges that turn by less than 360 degrees, but corner {} has not", i + 1)

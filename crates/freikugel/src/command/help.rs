@@ -121,6 +121,7 @@ pub(super) fn values(param: &Param) -> (String, String) {
         ParamKind::Text => "a text".into(),
         ParamKind::Points2 => "a list of [x, y]".into(),
         ParamKind::Points3 => "a list of [x, y, z]".into(),
+        ParamKind::Balls => "a list of [x, y, z, radius], radii 0 or more".into(),
         ParamKind::Contours => "a list of [x, y] or [x, y, angle], or a list of such lists".into(),
         ParamKind::HalfSpaces => "a list of [x, y, z, d]".into(),
     };
