@@ -4,7 +4,7 @@
 //! both ends, as is asked for (Bolton, "Biarc curves", 1975). Errors fall with the cube of the pieces' length, so that few arcs do.
 
 use crate::curve::Bezier;
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 /// A curve of which both halves are curves of the same kind.
 pub(crate) trait Divisible: Clone {
@@ -29,6 +29,25 @@ impl Divisible for Bezier<DVec3> {
 
     fn halves(&self) -> [Self; 2] {
         self.split(0.5)
+    }
+}
+
+/// A rational Bézier curve, by control points `(w x, w y, w z, w)` with weights above 0.
+#[derive(Clone, Debug)]
+pub(crate) struct Rational(pub(crate) Bezier<DVec4>);
+
+impl Divisible for Rational {
+    fn controls(&self) -> Vec<DVec3> {
+        self.0.points().iter().map(|point| point.truncate() / point.w).collect()
+    }
+
+    fn at(&self, t: f64) -> DVec3 {
+        let point = self.0.at(t);
+        point.truncate() / point.w
+    }
+
+    fn halves(&self) -> [Self; 2] {
+        self.0.split(0.5).map(Self)
     }
 }
 
@@ -250,6 +269,20 @@ mod tests {
                 let gap = arcs.iter().map(|arc| arc.distance(point)).fold(f64::INFINITY, f64::min);
                 assert!(arcs.is_empty() || gap < 1.5 * TOLERANCE, "{points:?}: {gap}");
             }
+        }
+    }
+
+    #[test]
+    fn a_rational_quarter_of_a_circle_is_two_arcs_of_it() {
+        let half = 0.5_f64.sqrt();
+        let points =
+            vec![DVec4::new(2.0, 0.0, 1.0, 1.0), DVec4::new(2.0, 2.0, 1.0, 1.0) * half, DVec4::new(0.0, 2.0, 1.0, 1.0)];
+        let arcs = of_curve(&Rational(Bezier::new(points)), 1e-9);
+        assert_eq!(arcs.len(), 2);
+        for arc in arcs {
+            assert!(
+                (arc.constants()[12] - 2.0).abs() < 1e-12 && (arc.length() - std::f64::consts::FRAC_PI_2).abs() < 1e-12
+            );
         }
     }
 

@@ -51,6 +51,7 @@ pub mod link;
 pub mod mandelbulb;
 pub mod moon;
 pub mod morph;
+pub mod nurbs;
 pub mod octahedron;
 pub mod offset;
 pub mod outline;
@@ -163,6 +164,7 @@ pub use link::*;
 pub use mandelbulb::*;
 pub use moon::*;
 pub use morph::*;
+pub use nurbs::*;
 pub use octahedron::*;
 pub use offset::*;
 pub use outline::*;
@@ -284,6 +286,7 @@ pub static ALL: &[&Shape] = &[
     &MANDELBULB,
     &MOON,
     &MORPH,
+    &NURBS,
     &OCTAHEDRON,
     &OFFSET,
     &OUTLINE,

@@ -1,4 +1,4 @@
-//! Tubes whose radius changes: beside the balls of their curves.
+//! Tubes whose radius changes, and tubes along rational curves: beside the points of their curves.
 
 mod common;
 
@@ -91,14 +91,18 @@ fn tubes_of_one_radius_are_plain_tubes() {
     for _ in 0..8 {
         let points: Vec<[f64; 3]> = (0..5).map(|_| random.point(1.0).to_array()).collect();
         let balls = || points.iter().map(|[x, y, z]| [*x, *y, *z, RADIUS]);
+        let weighted = || points.iter().map(|[x, y, z]| [*x, *y, *z, 0.7]);
         let plain = || points.iter().copied();
         let closed = |field: Field| field.with("closed", &[1.into()]);
-        let pairs: [(Field, Field, f64); 5] = [
+        let pairs: [(Field, Field, f64); 8] = [
             (tapered_tube(balls()).into(), tube(RADIUS, plain()).into(), ROUNDING),
             (closed(tapered_tube(balls()).into()), closed(tube(RADIUS, plain()).into()), ROUNDING),
             (tapered_bezier(balls()).into(), bezier(RADIUS, plain()).into(), TOLERANCE),
             (tapered_b_spline(3, balls()).into(), b_spline(RADIUS, 3, plain()).into(), TOLERANCE),
             (closed(tapered_spline(balls()).into()), closed(spline(RADIUS, plain()).into()), TOLERANCE),
+            (nurbs(RADIUS, 3, weighted()).into(), b_spline(RADIUS, 3, plain()).into(), ROUNDING),
+            (closed(nurbs(RADIUS, 2, weighted()).into()), closed(b_spline(RADIUS, 2, plain()).into()), ROUNDING),
+            (nurbs(RADIUS, 4, weighted()).with("knots", &[1.into()]).into(), bezier(RADIUS, plain()).into(), ROUNDING),
         ];
         for (index, (one, other, tolerance)) in pairs.into_iter().enumerate() {
             let (one, other) = (program(&one), program(&other));
@@ -133,8 +137,30 @@ fn ranges_hold_all_values() {
 }
 
 #[test]
+fn rational_curves_are_true_circles() {
+    let w = 0.5_f64.sqrt();
+    let corners = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
+    let points = corners.iter().map(|&[x, y]| [f64::from(x), f64::from(y), 0.0, if x * y == 0 { 1.0 } else { w }]);
+    let closed = |field: Field| field.with("closed", &[1.into()]);
+    let made = closed(nurbs(0.2, 2, points).with("knots", &[1.into()]).into());
+    let (made, known) = (program(&made), program(&torus(1.0, 0.2).into()));
+    let mut random = Random::new(41);
+    for p in (0..400).map(|_| random.point(1.6)) {
+        assert!((made.value(p) - known.value(p)).abs() < 1e-9, "{p}");
+    }
+    // A piece of a hyperbola, whose weight in the middle is above 1, stays within its control points, and nearer to the middle one.
+    let bow =
+        |w: f64| program(&nurbs(0.1, 2, [[-1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, w], [1.0, 0.0, 0.0, 1.0]]).into());
+    let at = |w: f64| DVec3::new(0.0, w / (1.0 + w), 0.0);
+    for w in [0.2, 1.0, 5.0] {
+        assert!((bow(w).value(at(w)) + 0.1).abs() < 2e-3 * 0.1, "{w}");
+    }
+}
+
+#[test]
 fn what_is_no_curve_is_refused() {
     let balls = |radius: f64| [[0.0, 0.0, 0.0, radius], [1.0, 0.0, 0.0, radius]];
+    let pieces = |field: Field| field.with("knots", &[1.into()]);
     for (field, message) in [
         (tapered_tube(balls(0.0)).into(), "`points` of `tapered_tube` must have a radius above 0"),
         (tapered_tube(balls(-0.5)).into(), "must have radii of 0 or more, but entry 1 has -0.5"),
@@ -143,6 +169,8 @@ fn what_is_no_curve_is_refused() {
         (tapered_spline([[0.0, 0.0, 0.0, 1.0]]).into(), "`tapered_spline` has fewer than two points"),
         (tapered_bezier([[0.0, 0.0, 0.0, 1.0]; 3]).into(), "`tapered_bezier` is a curve between two points"),
         (tapered_b_spline(3, balls(1.0)).into(), "at least 4 points"),
+        (nurbs(0.1, 1, balls(0.0)).into(), "must have weights above 0, but entry 1 has 0"),
+        (pieces(nurbs(0.1, 2, balls(1.0)).into()), "a multiple of 2 points and one more"),
     ] {
         let (analysis, diagnostics) = analyse(&field);
         assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{message}: {diagnostics:?}");

@@ -79,6 +79,8 @@ pub enum ParamKind {
     Points3,
     /// A list of balls: x, y, z, radius. No radius is negative, and one is above 0.
     Balls,
+    /// A list of points with a weight above 0 each: x, y, z, weight.
+    Weighted,
     /// One or several closed lines of the plane: lists of corners x, y and the angle by which the edge to the next corner turns
     /// to the left, 0 for a straight one; stored with a fourth number, 1 for the last corner of a line and otherwise 0.
     Contours,
@@ -115,7 +117,8 @@ impl ParamKind {
             | Self::Region
             | Self::HalfSpaces
             | Self::Contours
-            | Self::Balls => 4,
+            | Self::Balls
+            | Self::Weighted => 4,
         }
     }
 
@@ -127,6 +130,7 @@ impl ParamKind {
                 | Self::Points2
                 | Self::Points3
                 | Self::Balls
+                | Self::Weighted
                 | Self::Contours
                 | Self::Text
         )
@@ -179,6 +183,9 @@ impl ParamKind {
                 None if value.chunks(4).all(|ball| ball[3] == 0.0) => Some("must have a radius above 0".into()),
                 None => None,
             },
+            Self::Weighted => value.chunks(4).position(|point| point[3] <= 0.0).map(|index| {
+                format!("must have weights above 0, but entry {} has {}", index + 1, brief(value[4 * index + 3]))
+            }),
             Self::Contours => value.chunks(4).enumerate().find_map(|(i, corner)| {
                 (corner[2].abs() >= std::f64::consts::TAU).then(|| {
                     format!("must have edges that turn by less than 360 degrees, but corner {} has not", i + 1)

@@ -122,6 +122,7 @@ pub(super) fn values(param: &Param) -> (String, String) {
         ParamKind::Points2 => "a list of [x, y]".into(),
         ParamKind::Points3 => "a list of [x, y, z]".into(),
         ParamKind::Balls => "a list of [x, y, z, radius], radii 0 or more".into(),
+        ParamKind::Weighted => "a list of [x, y, z, weight], weights above 0".into(),
         ParamKind::Contours => "a list of [x, y] or [x, y, angle], or a list of such lists".into(),
         ParamKind::HalfSpaces => "a list of [x, y, z, d]".into(),
     };

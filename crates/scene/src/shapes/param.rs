@@ -62,6 +62,9 @@ impl Notation<Vec<f64>> for ParamKind {
             (Self::Balls, _) => {
                 entries(reader, value, "points with a radius, [x, y, z, radius]", ["x", "y", "z", "radius"])?
             }
+            (Self::Weighted, _) => {
+                entries(reader, value, "points with a weight, [x, y, z, weight]", ["x", "y", "z", "weight"])?
+            }
             (Self::Points3, _) => entries(reader, value, "points, [x, y, z]", ["x", "y", "z"])?,
             (Self::Points2, _) => entries(reader, value, "points, [x, y]", ["x", "y"])?,
         };
@@ -85,7 +88,7 @@ impl Notation<Vec<f64>> for ParamKind {
                 [2.0, ref size @ ..] => json!({ "box": list(size) }),
                 _ => return None,
             },
-            Self::HalfSpaces | Self::Balls => value.chunks(4).map(list).collect(),
+            Self::HalfSpaces | Self::Balls | Self::Weighted => value.chunks(4).map(list).collect(),
             Self::Points2 => value.chunks(2).map(list).collect(),
             Self::Points3 => value.chunks(3).map(list).collect(),
             Self::Text => json!(value.iter().filter_map(|&code| char::from_u32(code as u32)).collect::<String>()),
@@ -156,7 +159,7 @@ impl Notation<Vec<f64>> for ParamKind {
                     one("box", json!({ "anyOf": [length(), three(length())] })),
                 ] })
             }
-            Self::HalfSpaces | Self::Balls => {
+            Self::HalfSpaces | Self::Balls | Self::Weighted => {
                 json!({ "type": "array", "items": numbers_schema(4), "minItems": 1 })
             }
             Self::Text => json!({ "type": "string", "minLength": 1 }),
@@ -361,6 +364,7 @@ mod tests {
             (ParamKind::Points2, json!([[1, 0], [0.5, 2], [0, 1]])),
             (ParamKind::Points3, json!([[1, 0, 0.5], [0.5, 2, 3]])),
             (ParamKind::Balls, json!([[1, 0, 0.5, 0], [0.5, 2, 3, 0.25]])),
+            (ParamKind::Weighted, json!([[1, 0, 0.5, 1], [0.5, 2, 3, 0.25]])),
             (ParamKind::Text, json!("Grüße\n")),
             (ParamKind::Contours, json!([[1, 0], [0.5, 2, 90], [0, 1]])),
             (ParamKind::Contours, json!([[[1, 0, 180], [0.5, 2]], [[0, 1], [1, 1], [2, 2, -30.5]]])),
