@@ -96,6 +96,7 @@ pub mod staircase;
 pub mod stairs;
 pub mod star;
 pub mod stretch;
+pub mod stroke;
 pub mod svg_path;
 pub mod swirl;
 pub mod symmetry;
@@ -208,6 +209,7 @@ pub use staircase::*;
 pub use stairs::*;
 pub use star::*;
 pub use stretch::*;
+pub use stroke::*;
 pub use svg_path::*;
 pub use swirl::*;
 pub use symmetry::*;
@@ -336,6 +338,7 @@ pub static ALL: &[&Shape] = &[
     &STAIRS_DIFFERENCE,
     &STAR,
     &STRETCH,
+    &STROKE,
     &SVG_PATH,
     &SWIRL,
     &SYMMETRY,

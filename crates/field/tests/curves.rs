@@ -1,4 +1,4 @@
-//! Tubes whose radius changes, and tubes along rational curves: beside the points of their curves.
+//! Tubes whose radius changes, tubes along rational curves, and lines along paths: beside the points of their curves.
 
 mod common;
 
@@ -158,6 +158,49 @@ fn rational_curves_are_true_circles() {
 }
 
 #[test]
+fn strokes_are_lines_along_their_paths() {
+    let plane = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let mut random = Random::new(43);
+    let cases: [(&str, Field, Field, f64); 5] = [
+        (
+            "edges",
+            stroke(0.2, "M-1 0 L0 -0.5 l1 0.7").into(),
+            polyline(0.2, [[-1.0, 0.0], [0.0, 0.5], [1.0, -0.2]]).into(),
+            ROUNDING,
+        ),
+        (
+            "a closed line",
+            stroke(0.2, "M-1 0 L0 -0.5 H1 Z").into(),
+            polyline(0.2, [[-1.0, 0.0], [0.0, 0.5], [1.0, 0.5]]).with("closed", &[1.into()]).into(),
+            ROUNDING,
+        ),
+        ("a dot", stroke(0.4, "M0.3 -0.2 l0 0").into(), Field::from(circle(0.2)).at([0.3, 0.2, 0.0]), ROUNDING),
+        (
+            "two lines",
+            stroke(0.2, "M-1 0 h0.5 M0.5 0 v-1").into(),
+            polyline(0.2, [[-1.0, 0.0], [-0.5, 0.0]]) + polyline(0.2, [[0.5, 0.0], [0.5, 1.0]]),
+            ROUNDING,
+        ),
+        // The picture's arcs become cubic curves first, whose error is 2.7e-4 of their radius.
+        ("half a ring", stroke(0.2, "M-0.8 0 A0.8 0.8 0 0 1 0.8 0").into(), arc(0.8, 0.2, 180.0).into(), 6e-4),
+    ];
+    for (name, made, known, tolerance) in cases {
+        let (one, other) = (program(&made), program(&known));
+        for p in (0..400).map(|_| random.point(1.6) * plane(1.0, 1.0)) {
+            let (found, expected) = (one.value(p), other.value(p));
+            let is_bound = expected < 0.0 && found >= expected - tolerance && found <= tolerance;
+            assert!(is_bound || (found - expected).abs() < tolerance, "{name} at {p}: {found}, not {expected}");
+        }
+    }
+    let (bow, curve) = (stroke(0.1, "M0 0 Q 1 -1 2 0").into(), [plane(0.0, 0.0), plane(1.0, 1.0), plane(2.0, 0.0)]);
+    let (bow, curve) = (program(&bow), Bezier::new(curve.to_vec()));
+    for p in (0..200).map(|_| random.point(2.0) * plane(1.0, 1.0)) {
+        let nearest = steps().map(|t| curve.at(t).distance(p)).fold(f64::INFINITY, f64::min) - 0.05;
+        assert!((bow.value(p) - nearest).abs() < 2e-4, "{p}");
+    }
+}
+
+#[test]
 fn what_is_no_curve_is_refused() {
     let balls = |radius: f64| [[0.0, 0.0, 0.0, radius], [1.0, 0.0, 0.0, radius]];
     let pieces = |field: Field| field.with("knots", &[1.into()]);
@@ -171,6 +214,8 @@ fn what_is_no_curve_is_refused() {
         (tapered_b_spline(3, balls(1.0)).into(), "at least 4 points"),
         (nurbs(0.1, 1, balls(0.0)).into(), "must have weights above 0, but entry 1 has 0"),
         (pieces(nurbs(0.1, 2, balls(1.0)).into()), "a multiple of 2 points and one more"),
+        (stroke(0.1, "M0 0 L1 x").into(), "`d` of `stroke` is no path data"),
+        (stroke(0.1, "M0 0").into(), "`d` of `stroke` draws nothing"),
     ] {
         let (analysis, diagnostics) = analyse(&field);
         assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{message}: {diagnostics:?}");

@@ -3,12 +3,37 @@
 use super::tube::{Tube, Wire};
 use crate::shape_prelude::*;
 
+/// All that a disc fills while it moves along straight edges and arcs of the plane: what lines of all kinds are cases of. Its arguments
+/// are those of the tube around them.
+#[derive(Clone, Copy, Debug)]
+pub struct Stroke;
+
+impl Primitive for Stroke {
+    const ABOUT: About =
+        About { name: "stroke", summary: "A line along arcs of the plane.", params: &[], elsewhere: &[], example: "" };
+
+    const DIMENSION: Dimension = Dimension::Plane;
+
+    fn contract(args: &[f64]) -> Contract {
+        Wire::contract(args)
+    }
+
+    fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
+        in_plane(direction, |_| Wire::support(args, direction, level))
+    }
+
+    #[inline(always)]
+    fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
+        Wire::distance(vec3(p.x, p.y, p.z.lift(0.0)), c)
+    }
+}
+
 /// See [`polyline`].
 #[derive(Clone, Copy, Debug)]
 pub struct Polyline;
 
 /// The descriptor of [`polyline`].
-pub static POLYLINE: Shape = Shape::primitive::<Polyline>();
+pub static POLYLINE: Shape = Shape::special::<Polyline>();
 
 /// All that a disc of this width fills while its middle moves from point to point. `with("closed", ...)` leads from the last one
 /// back to the first.
@@ -24,7 +49,9 @@ fn tube(args: &[f64]) -> Vec<f64> {
     [args[0] / 2.0, args[1]].into_iter().chain(points).collect()
 }
 
-impl Primitive for Polyline {
+impl Special for Polyline {
+    type General = Stroke;
+
     const ABOUT: About = About {
         name: "polyline",
         summary: "A plane figure: a line of some width from point to point, with round joints and ends.",
@@ -38,26 +65,11 @@ impl Primitive for Polyline {
             [[-0.9, -0.5], [-0.5, 0.6], [0, -0.5], [0.5, 0.6], [0.9, -0.5]] } } } }"#,
     };
 
-    const DIMENSION: Dimension = Dimension::Plane;
-
     fn check(args: &[f64]) -> Result<(), String> {
         Tube::check(&tube(args)).map_err(|fault| fault.replace("`tube`", "`polyline`"))
     }
 
-    fn prepare(args: &[f64]) -> Vec<f64> {
+    fn general(args: &[f64]) -> Vec<f64> {
         Tube::general(&tube(args))
-    }
-
-    fn contract(args: &[f64]) -> Contract {
-        Wire::contract(args)
-    }
-
-    fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
-        in_plane(direction, |_| Wire::support(&Tube::general(&tube(args)), direction, level))
-    }
-
-    #[inline(always)]
-    fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
-        Wire::distance(vec3(p.x, p.y, p.z.lift(0.0)), c)
     }
 }
