@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3, DVec4};
 
 /// A curve of which both halves are curves of the same kind.
 pub(crate) trait Divisible: Clone {
-    /// Points between the first two of which that are apart it begins, and between the last two of which it ends.
+    /// Points of which the first and the last are its ends, where it leads from or to the nearest one in order that lies elsewhere.
     fn controls(&self) -> Vec<DVec3>;
 
     /// The point at `t`, 0 for the beginning and 1 for the end.

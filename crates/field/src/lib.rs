@@ -64,6 +64,7 @@ pub mod simd;
 mod slope;
 mod spine;
 pub mod structure;
+mod tapers;
 pub mod vector;
 
 pub use analysis::{Analysis, MAX_DEPTH, analyse, analyse_body, analyse_together, copies, extent};

@@ -59,6 +59,7 @@ pub mod mandelbulb;
 pub mod matrix;
 pub mod moon;
 pub mod morph;
+pub mod nurbs;
 pub mod octahedron;
 pub mod offset;
 pub mod outline;
@@ -111,12 +112,17 @@ pub mod staircase;
 pub mod stairs;
 pub mod star;
 pub mod stretch;
+pub mod stroke;
 pub mod superellipse;
 pub mod svg;
 pub mod svg_path;
 pub mod swirl;
 pub mod symmetry;
 pub mod taper;
+pub mod tapered_b_spline;
+pub mod tapered_bezier;
+pub mod tapered_spline;
+pub mod tapered_tube;
 pub mod tetrahedron;
 pub mod text;
 pub mod tongue;
@@ -186,6 +192,7 @@ pub use mandelbulb::*;
 pub use matrix::*;
 pub use moon::*;
 pub use morph::*;
+pub use nurbs::*;
 pub use octahedron::*;
 pub use offset::*;
 pub use outline::*;
@@ -236,12 +243,17 @@ pub use staircase::*;
 pub use stairs::*;
 pub use star::*;
 pub use stretch::*;
+pub use stroke::*;
 pub use superellipse::*;
 pub use svg::*;
 pub use svg_path::*;
 pub use swirl::*;
 pub use symmetry::*;
 pub use taper::*;
+pub use tapered_b_spline::*;
+pub use tapered_bezier::*;
+pub use tapered_spline::*;
+pub use tapered_tube::*;
 pub use tetrahedron::*;
 pub use text::*;
 pub use tongue::*;
@@ -323,6 +335,7 @@ pub static ALL: &[&Shape] = &[
     &MATRIX,
     &MOON,
     &MORPH,
+    &NURBS,
     &OCTAHEDRON,
     &OFFSET,
     &OUTLINE,
@@ -379,12 +392,17 @@ pub static ALL: &[&Shape] = &[
     &STAIRS_DIFFERENCE,
     &STAR,
     &STRETCH,
+    &STROKE,
     &SUPERELLIPSE,
     &SVG,
     &SVG_PATH,
     &SWIRL,
     &SYMMETRY,
     &TAPER,
+    &TAPERED_B_SPLINE,
+    &TAPERED_BEZIER,
+    &TAPERED_SPLINE,
+    &TAPERED_TUBE,
     &TETRAHEDRON,
     &TEXT,
     &TONGUE,

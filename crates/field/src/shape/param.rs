@@ -81,6 +81,10 @@ pub enum ParamKind {
     Points2,
     /// A list of points: x, y, z.
     Points3,
+    /// A list of balls: x, y, z, radius. No radius is negative, and one is above 0.
+    Balls,
+    /// A list of points with a weight above 0 each: x, y, z, weight.
+    Weighted,
     /// One or several closed lines of the plane: lists of corners x, y and the angle by which the edge to the next corner turns
     /// to the left, 0 for a straight one; stored with a fourth number, 1 for the last corner of a line and otherwise 0.
     Contours,
@@ -124,14 +128,29 @@ impl ParamKind {
             | Self::Angles
             | Self::Points3
             | Self::Counts(..) => 3,
-            Self::Quaternion | Self::Quadruple | Self::Region | Self::HalfSpaces | Self::Contours => 4,
+            Self::Quaternion
+            | Self::Quadruple
+            | Self::Region
+            | Self::HalfSpaces
+            | Self::Contours
+            | Self::Balls
+            | Self::Weighted => 4,
             Self::Matrix => 9,
         }
     }
 
     /// Whether the value is a list of entries.
     pub const fn is_list(self) -> bool {
-        matches!(self, Self::HalfSpaces | Self::Points2 | Self::Points3 | Self::Contours | Self::Text)
+        matches!(
+            self,
+            Self::HalfSpaces
+                | Self::Points2
+                | Self::Points3
+                | Self::Balls
+                | Self::Weighted
+                | Self::Contours
+                | Self::Text
+        )
     }
 
     /// Why `value` is not one of this kind, or `None` if it is. The numbers are as stored: angles in radians.
@@ -172,6 +191,18 @@ impl ParamKind {
             Self::HalfSpaces => value.chunks(4).enumerate().find_map(|(i, plane)| {
                 (DVec3::new(plane[0], plane[1], plane[2]).length() < SHORTEST_DIRECTION)
                     .then(|| format!("entry {i} has a zero normal"))
+            }),
+            Self::Balls => match value.chunks(4).position(|ball| ball[3] < 0.0) {
+                Some(index) => Some(format!(
+                    "must have radii of 0 or more, but entry {} has {}",
+                    index + 1,
+                    brief(value[4 * index + 3])
+                )),
+                None if value.chunks(4).all(|ball| ball[3] == 0.0) => Some("must have a radius above 0".into()),
+                None => None,
+            },
+            Self::Weighted => value.chunks(4).position(|point| point[3] <= 0.0).map(|index| {
+                format!("must have weights above 0, but entry {} has {}", index + 1, brief(value[4 * index + 3]))
             }),
             Self::Contours => value.chunks(4).enumerate().find_map(|(i, corner)| {
                 (corner[2].abs() >= std::f64::consts::TAU).then(|| {

@@ -2,7 +2,7 @@
 
 use super::tube::{Wire, along};
 use crate::arcs3::of_curve;
-use crate::curve::BSpline;
+use crate::curve::{BSpline, Point};
 use crate::remember::remembered;
 use crate::shape_prelude::*;
 
@@ -50,7 +50,7 @@ impl Special for BSplineTube {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let spline = spline(args).map_err(|fault| format!("`b_spline`: {fault}"))?;
+        let spline = with_even_knots(args[1], args[2], points(args)).map_err(|fault| format!("`b_spline`: {fault}"))?;
         if spline.points().iter().all(|point| *point == spline.points()[0]) {
             return Err("all points of `b_spline` are the same".into());
         }
@@ -59,15 +59,19 @@ impl Special for BSplineTube {
 
     fn general(args: &[f64]) -> Vec<f64> {
         remembered("b_spline", args, || {
-            let pieces = spline(args).map(|spline| spline.beziers()).unwrap_or_default();
+            let spline = with_even_knots(args[1], args[2], points(args));
+            let pieces = spline.map(|spline| spline.beziers()).unwrap_or_default();
             along(args[0], pieces.iter().flat_map(|piece| of_curve(piece, args[0] * TOLERANCE)))
         })
     }
 }
 
-/// The curve.
-fn spline(args: &[f64]) -> Result<BSpline<DVec3>, String> {
-    let points: Vec<DVec3> = args[3..].chunks_exact(3).map(DVec3::from_slice).collect();
-    let degree = args[1] as usize;
-    if args[2] == 0.0 { BSpline::clamped(degree, points) } else { BSpline::closed(degree, &points) }
+fn points(args: &[f64]) -> Vec<DVec3> {
+    args[3..].chunks_exact(3).map(DVec3::from_slice).collect()
+}
+
+/// The spline of a degree with these control points and evenly spaced knots, which is closed if `closed` isn't 0.
+pub(crate) fn with_even_knots<P: Point>(degree: f64, closed: f64, points: Vec<P>) -> Result<BSpline<P>, String> {
+    let degree = degree as usize;
+    if closed == 0.0 { BSpline::clamped(degree, points) } else { BSpline::closed(degree, &points) }
 }

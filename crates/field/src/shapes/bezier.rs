@@ -21,7 +21,7 @@ pub fn bezier<V: Into<Value>>(radius: impl Into<Value>, points: impl IntoIterato
 }
 
 /// Curves of a higher degree are hardly ever wanted, and lose precision.
-const MOST_POINTS: usize = 33;
+pub(crate) const MOST_POINTS: usize = 33;
 
 /// Arcs are within this share of the tube's radius from the curve.
 const TOLERANCE: f64 = 2e-3;

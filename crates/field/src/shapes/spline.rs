@@ -3,7 +3,7 @@
 
 use super::tube::{Tube, Wire, along};
 use crate::arcs3::of_curve;
-use crate::curve::Bezier;
+use crate::curve::{Bezier, Point};
 use crate::remember::remembered;
 use crate::shape_prelude::*;
 
@@ -60,24 +60,24 @@ impl Special for SplineTube {
 
 /// The curve's pieces from point to point. At each point it has the direction from the one before to the one after; at the ends
 /// of an open curve, that which makes the first and the last piece parabolas.
-fn pieces(points: &[DVec3], is_closed: bool) -> Vec<Bezier<DVec3>> {
+pub(crate) fn pieces<P: Point>(points: &[P], is_closed: bool) -> Vec<Bezier<P>> {
     let count = points.len();
     let slope = |index: usize| {
         if is_closed || (index > 0 && index + 1 < count) {
-            (points[(index + 1) % count] - points[(index + count - 1) % count]) / 2.0
+            (points[(index + 1) % count] - points[(index + count - 1) % count]) * 0.5
         } else if count == 2 {
             points[1] - points[0]
         } else if index == 0 {
-            (points[1] - points[0]) * 2.0 - (points[2] - points[0]) / 2.0
+            (points[1] - points[0]) * 2.0 - (points[2] - points[0]) * 0.5
         } else {
-            (points[index] - points[index - 1]) * 2.0 - (points[index] - points[index - 2]) / 2.0
+            (points[index] - points[index - 1]) * 2.0 - (points[index] - points[index - 2]) * 0.5
         }
     };
     (0..count - usize::from(!is_closed))
         .map(|index| {
             let next = (index + 1) % count;
             let (a, b) = (points[index], points[next]);
-            Bezier::new(vec![a, a + slope(index) / 3.0, b - slope(next) / 3.0, b])
+            Bezier::new(vec![a, a + slope(index) * (1.0 / 3.0), b - slope(next) * (1.0 / 3.0), b])
         })
         .collect()
 }

@@ -52,7 +52,7 @@ impl Special for SvgPath {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        lines(args)?;
+        lines(args).map_err(|fault| format!("`d` of `svg_path` {fault}"))?;
         if Self::general(args).is_empty() { Err("`d` of `svg_path` surrounds nothing".into()) } else { Ok(()) }
     }
 
@@ -64,13 +64,21 @@ impl Special for SvgPath {
     }
 }
 
+/// The path data of a list of characters.
+pub(crate) fn segments(codes: &[f64]) -> Result<Vec<SimplePathSegment>, String> {
+    let parsed: Result<_, _> = SimplifyingPathParser::from(text_of(codes).as_str()).collect();
+    parsed.map_err(|error| format!("is no path data: {error}"))
+}
+
+/// A point of a picture, in which y leads downwards.
+pub(crate) fn in_pictures(x: f64, y: f64) -> DVec2 {
+    DVec2::new(x, -y)
+}
+
 /// The closed lines of a path, with arguments as those of an outline, and the tolerance they were made with.
 fn lines(args: &[f64]) -> Result<(Vec<f64>, f64), String> {
-    let data = text_of(&args[1..]);
-    let segments: Vec<SimplePathSegment> = SimplifyingPathParser::from(data.as_str())
-        .collect::<Result<_, _>>()
-        .map_err(|error| format!("`d` of `svg_path` is no path data: {error}"))?;
-    let point = |x: f64, y: f64| DVec2::new(x, -y);
+    let segments = segments(&args[1..])?;
+    let point = in_pictures;
     let ends = segments.iter().filter_map(|segment| match *segment {
         SimplePathSegment::MoveTo { x, y }
         | SimplePathSegment::LineTo { x, y }

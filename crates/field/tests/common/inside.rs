@@ -3,7 +3,7 @@
 use super::{is_blend, is_carved};
 use freikugel_field::shape::Kind;
 use freikugel_field::{Extent, Field, extent, shapes};
-use glam::{DMat3, DQuat, DVec2, DVec3};
+use glam::{DMat3, DQuat, DVec2, DVec3, DVec4};
 
 /// Whether a point lies in a field's shape, from set logic and each primitive's own definition, never from its distance.
 /// `None` where the answer depends on a blend, or there is no inside.
@@ -328,6 +328,15 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             let points: Vec<DVec3> = points.chunks_exact(3).map(DVec3::from_slice).collect();
             near_line(&points, *closed == 1.0, p, *radius)
         }
+        ("tapered_tube", [closed, balls @ ..]) => {
+            let balls: Vec<DVec4> = balls.chunks_exact(4).map(DVec4::from_slice).collect();
+            (0..balls.len() - usize::from(*closed != 1.0)).any(|index| {
+                let (a, b) = (balls[index], balls[(index + 1) % balls.len()]);
+                // How far outside of a ball the point lies has one minimum over all balls.
+                let at = |share: f64| p.distance(a.lerp(b, share).truncate()) - a.lerp(b, share).w;
+                least(at) < 0.0
+            })
+        }
         ("polyline", [width, closed, points @ ..]) => {
             let points: Vec<DVec3> = points.chunks_exact(2).map(|c| DVec3::new(c[0], c[1], 0.0)).collect();
             near_line(&points, *closed == 1.0, DVec3::new(p.x, p.y, 0.0), width / 2.0)
@@ -338,6 +347,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         // Tested by themselves: what is inside, their own curves say.
         ("superellipse" | "gear" | "spiral", _) => return None,
         ("text" | "svg" | "svg_path" | "bezier" | "b_spline" | "spline", _) => return None,
+        ("stroke" | "nurbs" | "tapered_bezier" | "tapered_b_spline" | "tapered_spline", _) => return None,
         (name, _) if is_blend(name) || is_carved(name) => return None,
         (name, args) => panic!("say in the membership test what lies inside {name} with {} numbers", args.len()),
     })

@@ -76,6 +76,19 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
             }
         }
         ParamKind::Points3 => (0..3 * (2 + random.below(4))).for_each(|_| push(random.range(-1.0, 1.0))),
+        ParamKind::Balls => {
+            for index in 0..2 + random.below(4) {
+                (0..3).for_each(|_| push(random.range(-1.0, 1.0)));
+                // A tip at the beginning, at times.
+                push(if index == 0 && random.below(3) == 0 { 0.0 } else { random.range(0.1, 0.5) });
+            }
+        }
+        ParamKind::Weighted => {
+            for _ in 0..2 + random.below(4) {
+                (0..3).for_each(|_| push(random.range(-1.0, 1.0)));
+                push(random.range(0.3, 3.0));
+            }
+        }
         ParamKind::Contours => {
             // A round-edged star, in which smaller ones may be holes, or overlap.
             for reach in if random.below(2) == 0 { &[1.2][..] } else { &[1.2, 0.5][..] } {

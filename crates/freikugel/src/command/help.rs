@@ -161,6 +161,12 @@ fn values(param: &Param) -> (String, String) {
         ParamKind::Text => "a text, or { \"file\": NAME }".into(),
         ParamKind::Points2 => "a list of [x, y], or { \"file\": NAME } with a row of numbers for each".into(),
         ParamKind::Points3 => "a list of [x, y, z], or { \"file\": NAME } with a row of numbers for each".into(),
+        ParamKind::Balls => {
+            "a list of [x, y, z, radius], radii 0 or more, or { \"file\": NAME } with a row of numbers for each".into()
+        }
+        ParamKind::Weighted => {
+            "a list of [x, y, z, weight], weights above 0, or { \"file\": NAME } with a row of numbers for each".into()
+        }
         ParamKind::Contours => "a list of [x, y] or [x, y, angle], or a list of such lists".into(),
         ParamKind::HalfSpaces => "a list of [x, y, z, d], or { \"file\": NAME } with a row of numbers for each".into(),
     };

@@ -16,9 +16,10 @@ const NO_ENTRIES: &str = "must have an entry";
 impl Notation<Vec<f64>> for ParamKind {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
         let numbers = match (*self, value) {
-            (Self::Text | Self::Points2 | Self::Points3 | Self::HalfSpaces, Written::Object(_)) => {
-                in_file(reader, *self, value)?
-            }
+            (
+                Self::Text | Self::Points2 | Self::Points3 | Self::HalfSpaces | Self::Balls | Self::Weighted,
+                Written::Object(_),
+            ) => in_file(reader, *self, value)?,
             (Self::Number | Self::Length | Self::Positive | Self::Factor | Self::Count(..), _) => {
                 vec![reader.number(value)?]
             }
@@ -64,6 +65,12 @@ impl Notation<Vec<f64>> for ParamKind {
                 reader.mistyped(value, "a text", None);
                 return None;
             }
+            (Self::Balls, _) => {
+                entries(reader, value, "points with a radius, [x, y, z, radius]", ["x", "y", "z", "radius"])?
+            }
+            (Self::Weighted, _) => {
+                entries(reader, value, "points with a weight, [x, y, z, weight]", ["x", "y", "z", "weight"])?
+            }
             (Self::Points3, _) => entries(reader, value, "points, [x, y, z]", ["x", "y", "z"])?,
             (Self::Points2, _) => entries(reader, value, "points, [x, y]", ["x", "y"])?,
         };
@@ -87,7 +94,7 @@ impl Notation<Vec<f64>> for ParamKind {
                 [2.0, ref size @ ..] => json!({ "box": list(size) }),
                 _ => return None,
             },
-            Self::HalfSpaces => value.chunks(4).map(list).collect(),
+            Self::HalfSpaces | Self::Balls | Self::Weighted => value.chunks(4).map(list).collect(),
             Self::Points2 => value.chunks(2).map(list).collect(),
             Self::Points3 | Self::Matrix => value.chunks(3).map(list).collect(),
             Self::Text => json!(value.iter().filter_map(|&code| char::from_u32(code as u32)).collect::<String>()),
@@ -159,7 +166,7 @@ impl Notation<Vec<f64>> for ParamKind {
                     one("box", json!({ "anyOf": [length(), three(length())] })),
                 ] })
             }
-            Self::HalfSpaces | Self::Points3 | Self::Points2 => {
+            Self::HalfSpaces | Self::Balls | Self::Weighted | Self::Points3 | Self::Points2 => {
                 let list = json!({ "type": "array", "items": numbers_schema(self.width()), "minItems": 1 });
                 json!({ "anyOf": [list, FileNotation.schema(definitions)] })
             }
@@ -402,6 +409,8 @@ mod tests {
             (ParamKind::Points2, json!([[1, 0], [0.5, 2], [0, 1]])),
             (ParamKind::Points3, json!([[1, 0, 0.5], [0.5, 2, 3]])),
             (ParamKind::Matrix, json!([[1, 0.5, 0], [0, 1, -2], [0, 0, 1]])),
+            (ParamKind::Balls, json!([[1, 0, 0.5, 0], [0.5, 2, 3, 0.25]])),
+            (ParamKind::Weighted, json!([[1, 0, 0.5, 1], [0.5, 2, 3, 0.25]])),
             (ParamKind::Text, json!("Grüße\n")),
             (ParamKind::Contours, json!([[1, 0], [0.5, 2, 90], [0, 1]])),
             (ParamKind::Contours, json!([[[1, 0, 180], [0.5, 2]], [[0, 1], [1, 1], [2, 2, -30.5]]])),
