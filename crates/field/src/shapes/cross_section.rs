@@ -26,7 +26,7 @@ impl Map for Cut {
         summary: "Makes a plane figure of a body: the cut through it across the z axis. For other cuts, turn the body first.",
         params: &[Param::optional("height", ParamKind::Number, &[0.0], "The z of the cut.")],
         elsewhere: &["slice", "projection with cut", "section", "cut_plane"],
-        example: r#"{ "extrude": { "height": 0.3, "shape": { "cross_section": { "height": 0.25, "shape": {
+        example: r#"{ "extrude": { "height": 0.3, "shape": { "cross_section": { "height": 0.4, "shape": {
             "rotate": { "axis": [1, 0, 0], "angle": 90, "shape": { "torus": { "major": 0.7, "minor": 0.35 } } } } } } } }"#,
     };
 

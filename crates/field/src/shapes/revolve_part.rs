@@ -43,8 +43,9 @@ impl Combine for PartialRevolution {
             ),
         ],
         elsewhere: &["rotate_extrude with angle", "partial revolve", "capped revolution"],
-        example: r#"{ "revolve_part": { "angle": 250, "offset": 0.75, "shape": { "difference": [
-            { "rectangle": { "size": [0.6, 0.8], "round": 0.1 } }, { "circle": { "radius": 0.2 } } ] } } }"#,
+        example: r#"{ "rotate": { "axis": [0, 0, 1], "angle": 80, "shape": {
+            "revolve_part": { "angle": 250, "offset": 0.75, "shape": { "difference": [
+                { "rectangle": { "size": [0.6, 0.8], "round": 0.1 } }, { "circle": { "radius": 0.2 } } ] } } } } }"#,
     };
 
     const HULL: Hull = Hull::Common;
