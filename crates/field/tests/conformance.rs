@@ -160,7 +160,8 @@ fn hessians_in_batches_agree_with_f64_and_bit_for_bit_with_each_other() {
                 off += usize::from(!(near && slopes));
             }
             // Beside a crease, single precision may stand on its other side.
-            assert!(off <= 3, "{name} {seed} {level:?}: {off} of {} points", points.len());
+            let shown = common::notation(&field);
+            assert!(off <= 3, "{name} {seed} {level:?}: {off} of {} points of {shown}", points.len());
         }
     }
 }
@@ -212,9 +213,10 @@ fn intervals_contain_and_are_narrow() {
             level += usize::from(may_be_level && !is_narrow);
             assert!(
                 is_orbit || may_be_level || is_narrow,
-                "{name} {seed} at {corner}: {} for {}",
+                "{name} {seed} at {corner}: {} for {} of {}",
                 cell.width(),
-                highest - lowest
+                highest - lowest,
+                common::notation(&field)
             );
         }
     }

@@ -169,6 +169,12 @@ impl Map for Fold {
 
     const IS_PLANAR: bool = true;
 
+    /// Those for a single point at the origin; what larger shapes want, [`constants`] knows.
+    fn prepare(args: &[f64]) -> Vec<f64> {
+        let spacing = DVec3::from_slice(args);
+        Lattice { spacing, count: [1; 3], middle: DVec3::ZERO, half: DVec3::ZERO }.fold([0; 3]).to_vec()
+    }
+
     fn contract(args: &[f64], child: Contract, reach: Supports<'_>) -> Result<Contract, String> {
         let lattice = Lattice::of(args, reach)?;
         if args.iter().all(|&spacing| spacing == 0.0) {

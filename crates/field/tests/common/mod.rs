@@ -245,9 +245,12 @@ fn tree_in(dimension: Dimension, depth: u32, random: &mut Random) -> Field {
     call_in(dimension, shape, depth.saturating_sub(1), random)
 }
 
-/// A random sound body of about so many calls.
-pub(crate) fn large_tree(calls: usize, random: &mut Random) -> Field {
-    grown(Dimension::Space, calls, random)
+/// A random sound body of at least so many calls.
+pub(crate) fn large_tree(count: usize, random: &mut Random) -> Field {
+    // Branches are seldom all as large as they may be.
+    let sizes = (0..).map(|attempt| count + attempt * count / 8);
+    let mut trees = sizes.map(|size| grown(Dimension::Space, size, random));
+    trees.find(|tree| calls(tree) >= count).expect("some tree is large enough")
 }
 
 fn grown(dimension: Dimension, calls: usize, random: &mut Random) -> Field {
