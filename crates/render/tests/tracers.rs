@@ -91,7 +91,7 @@ fn at_most_one_ray_in_ten_thousand_grazes() {
     const WINDOW: u32 = 12;
     let (mut rays, mut grazing) = (0, [0; BOUNDED.len()]);
     let mut grazed = Vec::new();
-    for (index, (field, scene)) in trees(60).enumerate() {
+    for (index, (field, scene)) in trees(240).enumerate() {
         let mut random = Random::new(index as u64 + 900);
         for _ in 0..4 {
             let place = |random: &mut Random| random.below((SIDE - WINDOW) as usize) as u32;

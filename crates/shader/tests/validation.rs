@@ -45,8 +45,12 @@ fn shapes_with_any_arguments_become_valid_shaders() {
     for (name, seed, field) in fields::every_shape(2) {
         let mut scene = scene_of(r#"{ "sphere": { "radius": 1 } }"#);
         // Figures by themselves are nothing to be lit.
-        let is_figure = analyse(&field).0.expect("sound").contract.dimension == Dimension::Plane;
-        scene.objects[0].shape = if is_figure { field.extrude(1.0) } else { field };
+        let contract = analyse(&field).0.expect("sound").contract;
+        scene.objects[0].shape = match contract.dimension {
+            Dimension::Plane if contract.signed => field.extrude(1.0),
+            Dimension::Plane => field.offset(0.1).extrude(1.0),
+            Dimension::Space => field,
+        };
         check(&scene, &format!("{name} {seed}"));
     }
 }
