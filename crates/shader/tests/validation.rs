@@ -5,7 +5,7 @@ mod common;
 mod fields;
 
 use common::{read, scene, scene_files, scene_of};
-use freikugel_field::shapes::{self, Extrude};
+use freikugel_field::shapes::{self, Extrude, Offset};
 use freikugel_field::{Dimension, analyse};
 use freikugel_scene::Scene;
 use freikugel_shader::{Shader, Target};
