@@ -162,7 +162,7 @@ fn hessians_in_batches_agree_with_f64_and_bit_for_bit_with_each_other() {
                     near && (0..3).all(|axis| (f64::from(all[1 + axis][i]) - gradient[axis]).abs() < 3e-3)
                 };
                 // Beside a crease, single precision may stand on its other side.
-                let is_near_it = || (0..50).any(|_| is_that_at(p + beside.direction() * BESIDE));
+                let mut is_near_it = || (0..50).any(|_| is_that_at(p + beside.direction() * BESIDE));
                 off += usize::from(!is_that_at(p) && !is_near_it());
             }
             let shown = common::notation(&field);
