@@ -130,8 +130,11 @@ fn hessians_agree_with_differences_of_gradients() {
 fn hessians_in_batches_agree_with_f64_and_bit_for_bit_with_each_other() {
     /// A second derivative loses as many digits again as a first one, and more where a curvature is large.
     const TOLERANCE: f64 = 2e-3;
-    /// Rounding moves points by less.
-    const BESIDE: f64 = 1e-5;
+    /// Beside a crease, single precision may stand on its other side.
+    const MOST_OFF: usize = 3;
+    /// Where arcs join smoothly, it tells them from each other's ends only beyond the square root of its rounding: as many
+    /// points as that share of the distance is of the arcs' length have the curvature of an end.
+    const MOST_OFF_BESIDE_ARCS: usize = 9;
     let formulas = ["x^3*y - exp(z/2)*x", "sin(2x)*cos(y) + atan2(y, x + 4)", "hypot(x - 3, y, z) - 1"];
     let formulas = formulas.iter().map(|text| (*text, 0, freikugel_field::shapes::formula(text).into()));
     for (name, seed, field) in every_shape(2).chain(formulas) {
@@ -150,23 +153,21 @@ fn hessians_in_batches_agree_with_f64_and_bit_for_bit_with_each_other() {
             let mut plain = vec![0.0; points.len()];
             evaluator.values(given, &mut plain);
             assert_eq!(plain, all[0], "{name} {seed}: the values are those without derivatives");
-            let (mut off, mut beside) = (0, Random::new(seed + 251));
+            let mut off = 0;
             for (i, &p) in points.iter().enumerate() {
                 let [.., xx, yy, zz, xy, xz, yz] = &all[..] else { unreachable!("ten") };
                 let own = [xx[i], xy[i], xz[i], xy[i], yy[i], yz[i], xz[i], yz[i], zz[i]].map(f64::from);
-                let is_that_at = |p: DVec3| {
-                    let (_, gradient, hessian) = program.hessian(p);
-                    let hessian = hessian.to_cols_array();
-                    let largest = hessian.into_iter().fold(1.0, |m: f64, h| m.max(h.abs()));
-                    let near = hessian.into_iter().zip(own).all(|(a, b)| (a - b).abs() < TOLERANCE * largest);
-                    near && (0..3).all(|axis| (f64::from(all[1 + axis][i]) - gradient[axis]).abs() < 3e-3)
-                };
-                // Beside a crease, single precision may stand on its other side.
-                let mut is_near_it = || (0..50).any(|_| is_that_at(p + beside.direction() * BESIDE));
-                off += usize::from(!is_that_at(p) && !is_near_it());
+                let (_, gradient, hessian) = program.hessian(p);
+                let hessian = hessian.to_cols_array();
+                let largest = hessian.into_iter().fold(1.0, |m: f64, h| m.max(h.abs()));
+                let near = hessian.into_iter().zip(own).all(|(a, b)| (a - b).abs() < TOLERANCE * largest);
+                let slopes = (0..3).all(|axis| (f64::from(all[1 + axis][i]) - gradient[axis]).abs() < 3e-3);
+                off += usize::from(!(near && slopes));
             }
             let shown = common::notation(&field);
-            assert!(off <= 3, "{name} {seed} {level:?}: {off} of {} points of {shown}", points.len());
+            let is_chain = ["spline", "bezier", "nurbs", "stroke", "spiral"].iter().any(|chain| shown.contains(chain));
+            let most = if is_chain { MOST_OFF_BESIDE_ARCS } else { MOST_OFF };
+            assert!(off <= most, "{name} {seed} {level:?}: {off} of {} points of {shown}", points.len());
         }
     }
 }
@@ -221,7 +222,7 @@ fn intervals_contain_and_are_narrow() {
                 level += usize::from(may_be_level && !is_narrow);
             } else {
                 cells += 1;
-                ridges += usize::from(may_be_level && !is_narrow);
+                ridges += usize::from(!is_orbit && may_be_level && !is_narrow);
             }
             assert!(
                 is_orbit || may_be_level || is_narrow,
