@@ -46,7 +46,7 @@ fn group(group: &Group, tolerance: f64) -> Result<Vec<f64>, String> {
         }
     }
     // Everything has its inside on the left, so that what overlaps counts once.
-    let all = filled(all, Rule::NonZero, tolerance);
+    let all = filled(&all, Rule::NonZero, tolerance);
     match group.clip_path() {
         Some(clip) => Ok(common(&all, &clip_lines(clip, group.abs_transform(), tolerance)?, tolerance)),
         None => Ok(all),
@@ -67,7 +67,7 @@ fn clip_lines(clip: &usvg::ClipPath, outer: Transform, tolerance: f64) -> Result
             }
         }
     }
-    let all = filled(all, Rule::NonZero, tolerance);
+    let all = filled(&all, Rule::NonZero, tolerance);
     match clip.clip_path() {
         Some(inner) => Ok(common(&all, &clip_lines(inner, outer, tolerance)?, tolerance)),
         None => Ok(all),
@@ -114,7 +114,7 @@ fn area(path: Path, placed: Transform, rule: Rule, tolerance: f64) -> Vec<f64> {
             PathSegment::Close => lines.close(),
         }
     }
-    filled(lines.finish(), rule, tolerance)
+    filled(&lines.finish(), rule, tolerance)
 }
 
 #[cfg(test)]

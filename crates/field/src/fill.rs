@@ -39,14 +39,14 @@ const MOST_TURN: f64 = 3.3;
 const STRAIGHT: f64 = 1e-9;
 
 /// The border of what the rule fills, within the tolerance; lines are given and returned as the arguments of an outline.
-pub(crate) fn filled(lines: Vec<f64>, rule: Rule, tolerance: f64) -> Vec<f64> {
-    let edges = edges(&lines);
+pub(crate) fn filled(lines: &[f64], rule: Rule, tolerance: f64) -> Vec<f64> {
+    let edges = edges(lines);
     // Half of it is for the polygon, and half for the arcs that are found in it.
-    let polygons = polygons(&lines, &edges, tolerance / 2.0);
+    let polygons = polygons(lines, &edges, tolerance / 2.0);
     if do_cross(&polygons) {
         return overlaid(&polygons, rule, tolerance / 2.0);
     }
-    borders(&lines, &edges, rule)
+    borders(lines, &edges, rule)
 }
 
 /// What two figures have in common, within the tolerance; both are given by lines that [`filled`] returned.
@@ -199,7 +199,7 @@ fn overlaid(polygons: &[Vec<DVec2>], rule: Rule, tolerance: f64) -> Vec<f64> {
 }
 
 fn coordinates(polygons: &[Vec<DVec2>]) -> Vec<Vec<[f64; 2]>> {
-    polygons.iter().map(|polygon| polygon.iter().map(|p| p.to_array()).collect()).collect()
+    polygons.iter().map(|polygon| polygon.iter().map(DVec2::to_array).collect()).collect()
 }
 
 /// The lines of some polygons, with arcs where corners lie on such.
@@ -280,7 +280,7 @@ mod tests {
         // What two circles through each other's middle have in common.
         let lens = 2.0 * PI / 3.0 - 3.0_f64.sqrt() / 2.0;
         for (rule, expected) in [(Rule::NonZero, TAU - lens), (Rule::EvenOdd, TAU - 2.0 * lens)] {
-            let lines = filled([a.clone(), b.clone()].concat(), rule, TOLERANCE);
+            let lines = filled(&[a.clone(), b.clone()].concat(), rule, TOLERANCE);
             assert!((area(&lines) - expected).abs() < 10.0 * TOLERANCE, "{rule:?}: {}", area(&lines));
             assert!(lines.len() / 4 <= 16, "{rule:?}: {} edges", lines.len() / 4);
         }
@@ -290,11 +290,11 @@ mod tests {
     fn lines_that_do_not_cross_stay_as_they_are() {
         let (outer, inner) = (circle(DVec2::ZERO, 1.0, 1.0), circle(DVec2::ZERO, 0.5, 1.0));
         let hole = circle(DVec2::ZERO, 0.5, -1.0);
-        assert_eq!(filled([outer.clone(), inner.clone()].concat(), Rule::NonZero, TOLERANCE), outer);
+        assert_eq!(filled(&[outer.clone(), inner.clone()].concat(), Rule::NonZero, TOLERANCE), outer);
         let ring = [outer.clone(), hole].concat();
-        assert_eq!(filled(ring.clone(), Rule::NonZero, TOLERANCE), ring);
+        assert_eq!(filled(&ring, Rule::NonZero, TOLERANCE), ring);
         // The figure comes to lie to the left of all lines.
-        assert_eq!(filled([outer, inner].concat(), Rule::EvenOdd, TOLERANCE), ring);
+        assert_eq!(filled(&[outer, inner].concat(), Rule::EvenOdd, TOLERANCE), ring);
     }
 
     #[test]
@@ -312,7 +312,7 @@ mod tests {
             .collect();
         let middle = DVec2::ZERO;
         for (rule, is_inside) in [(Rule::NonZero, true), (Rule::EvenOdd, false)] {
-            let lines = filled(closed(&corners), rule, TOLERANCE);
+            let lines = filled(&closed(&corners), rule, TOLERANCE);
             assert_eq!(winding(&edges(&lines), middle) != 0, is_inside, "{rule:?}");
         }
     }
@@ -334,7 +334,7 @@ mod tests {
             let corner = |number: u32| DVec2::from_angle(turned + f64::from(number) * TAU / 4.0);
             closed(&[0, 1, 2, 3].map(corner).map(|corner| [corner.x, corner.y, 0.0]))
         };
-        let lines = filled([square(0.0), square(TAU / 8.0)].concat(), Rule::NonZero, TOLERANCE);
+        let lines = filled(&[square(0.0), square(TAU / 8.0)].concat(), Rule::NonZero, TOLERANCE);
         assert_eq!(lines.len() / 4, 16);
         assert!(lines.chunks(4).all(|corner| corner[2] == 0.0));
     }

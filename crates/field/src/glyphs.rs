@@ -71,7 +71,7 @@ impl<'a> Font<'a> {
             }
         }
         // Parts of a letter may overlap, and so may letters that are joined.
-        filled(letters, Rule::NonZero, size * TOLERANCE)
+        filled(&letters, Rule::NonZero, size * TOLERANCE)
     }
 
     /// The letters of a line and their places.

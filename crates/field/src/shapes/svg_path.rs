@@ -59,7 +59,7 @@ impl Special for SvgPath {
     fn general(args: &[f64]) -> Vec<f64> {
         remembered("svg_path", args, || {
             let Ok((lines, tolerance)) = lines(args) else { return Vec::new() };
-            filled(lines, if args[0] == 0.0 { Rule::NonZero } else { Rule::EvenOdd }, tolerance)
+            filled(&lines, if args[0] == 0.0 { Rule::NonZero } else { Rule::EvenOdd }, tolerance)
         })
     }
 }
