@@ -113,9 +113,10 @@ pub(crate) fn rows_of(text: &str, width: usize) -> Result<Vec<f64>, String> {
         let is_between = |c: char| c.is_whitespace() || c == ',' || c == ';';
         let words: Vec<&str> = line.split(is_between).filter(|word| !word.is_empty()).collect();
         let row: Vec<f64> = words.iter().map_while(|word| word.parse().ok()).filter(|n: &f64| n.is_finite()).collect();
+        let is_heading = numbers.is_empty() && row.is_empty();
         if row.len() >= width {
             numbers.extend_from_slice(&row[..width]);
-        } else if !words.is_empty() && !(numbers.is_empty() && row.is_empty()) {
+        } else if !words.is_empty() && !is_heading {
             return Err(format!("has no {width} numbers on line {number}: {}", quote(line.trim())));
         }
     }
