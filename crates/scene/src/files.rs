@@ -108,15 +108,20 @@ impl Notation<Vec<u8>> for FileNotation {
 /// The line that is none, as the end of a sentence.
 pub(crate) fn rows_of(text: &str, width: usize) -> Result<Vec<f64>, String> {
     let mut numbers = Vec::new();
+    let mut is_first = true;
     for (number, line) in (1..).zip(text.lines()) {
         let line = line.split('#').next().unwrap_or_default();
         let is_between = |c: char| c.is_whitespace() || c == ',' || c == ';';
         let words: Vec<&str> = line.split(is_between).filter(|word| !word.is_empty()).collect();
         let row: Vec<f64> = words.iter().map_while(|word| word.parse().ok()).filter(|n: &f64| n.is_finite()).collect();
-        let is_heading = numbers.is_empty() && row.is_empty();
+        if words.is_empty() {
+            continue;
+        }
+        let is_heading = is_first && row.is_empty();
+        is_first = false;
         if row.len() >= width {
             numbers.extend_from_slice(&row[..width]);
-        } else if !words.is_empty() && !is_heading {
+        } else if !is_heading {
             return Err(format!("has no {width} numbers on line {number}: {}", quote(line.trim())));
         }
     }
@@ -136,7 +141,7 @@ mod tests {
 
     #[test]
     fn what_is_no_row_is_named() {
-        for text in ["1 2 3\n4 5", "1 2 3\n\n4 nan 6", "1 2"] {
+        for text in ["1 2 3\n4 5", "1 2 3\n\n4 nan 6", "1 2", "x y z\na b c"] {
             let fault = rows_of(text, 3).expect_err(text);
             let line = text.lines().count();
             assert!(fault.contains(&format!("line {line}")), "{fault}");
