@@ -357,3 +357,13 @@ fn materials_of_lofts_go_over() {
         }
     }
 }
+
+#[test]
+fn shells_are_hollow() {
+    let shell = program(&sphere(1.0).shell(0.2));
+    for radius in [0.0, 0.3, 0.89, 0.95, 1.0, 1.05, 1.5] {
+        let expected = f64::abs(radius - 1.0) - 0.1;
+        let value = shell.value(DVec3::new(0.0, radius, 0.0));
+        assert!((value - expected).abs() < 1e-12, "{value}, not {expected}, at {radius}");
+    }
+}
