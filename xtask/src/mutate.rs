@@ -1,7 +1,7 @@
 //! Mutations: single operators of formulas are changed, one at a time, to see whether a test fails.
 //!
-//! The changes are made in a copy of the workspace. What no test notices is listed, with its place: either a test is missing, or the
-//! change makes no difference. `docs/mutations.md` explains what is known to survive.
+//! The changes are made in a copy of the workspace. What no test notices is listed, with its place: either a test is missing, or
+//! the change makes no difference. `docs/mutations.md` explains what is known to survive.
 
 use crate::probe::copy_tracked;
 use crate::run::{Result, root};

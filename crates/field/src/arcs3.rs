@@ -60,8 +60,11 @@ const PLACES: u32 = 7;
 /// Directions that differ by less, in the square, are the same.
 const PARALLEL: f64 = 1e-18;
 
-/// No single arc turns by more, so that none is taken for the other way round.
-const MOST_TURN: f64 = std::f64::consts::FRAC_PI_2;
+/// No single arc turns by more than a quarter and what rounding adds, so that none is taken for the other way round.
+const MOST_TURN: f64 = std::f64::consts::FRAC_PI_2 * 1.01;
+
+/// Where the directions at both ends of a biarc differ by less, in the square, the equation for its joint is linear.
+const SAME_WAY: f64 = 1e-9;
 
 /// How many constants an arc has; see [`Arc3::constants`].
 pub(crate) const ROW: usize = 13;
@@ -204,7 +207,7 @@ fn halve<C: Divisible>(curve: C, fits: &impl Fn(&C, &[Arc3]) -> bool, depth: u32
         return pieces.push((curve, Vec::new()));
     }
     if let Some(arcs) = biarc(&controls) {
-        let is_tame = arcs.iter().all(|arc| 2.0 * arc.half_turn() <= MOST_TURN * 1.01);
+        let is_tame = arcs.iter().all(|arc| 2.0 * arc.half_turn() <= MOST_TURN);
         if is_tame && fits(&curve, &arcs) {
             let is_straight = arcs.iter().all(|arc| arc.half_turn() == 0.0);
             let arcs = if is_straight { vec![Arc3::straight(first, last)] } else { arcs.to_vec() };
@@ -224,7 +227,7 @@ fn biarc(points: &[DVec3]) -> Option<[Arc3; 2]> {
     let (first, last) = ((*first - a).normalize(), (d - *last).normalize());
     let (chord, sum) = (d - a, first + last);
     let (product, opening) = (chord.dot(sum), 2.0 * (1.0 - first.dot(last)));
-    let length = if opening < 1e-9 {
+    let length = if opening < SAME_WAY {
         let along = chord.dot(last);
         if along <= 0.0 {
             return None;

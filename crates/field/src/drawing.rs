@@ -158,6 +158,13 @@ mod tests {
                 4,
                 [0.0, -4.0, 2.0, 0.0],
             ),
+            // Clip paths move with what they clip, and by themselves.
+            (
+                r#"<clipPath id="c" transform="translate(1 0)"><rect width="2" height="9"/></clipPath>
+                    <g transform="translate(3 1)"><rect clip-path="url(#c)" width="4" height="4"/></g>"#,
+                4,
+                [4.0, -5.0, 6.0, -1.0],
+            ),
         ] {
             let (edges, own) = about(inner);
             assert!(is_near(own, extent), "{inner}: {own:?}");

@@ -56,8 +56,8 @@ pub(crate) fn common(a: &[f64], b: &[f64], tolerance: f64) -> Vec<f64> {
     rounded(shapes.into_iter().flatten(), tolerance / 2.0)
 }
 
-/// Closed lines in groups, each of which is a figure by itself that no other one overlaps: a line and the holes in it. A single group
-/// if lines cross.
+/// Closed lines in groups, each of which is a figure by itself that no other one overlaps: a line and the holes in it. A single
+/// group if lines cross.
 pub(crate) fn components(lines: &[f64], tolerance: f64) -> Vec<Vec<f64>> {
     let all = edges(lines);
     let ends = (1..).zip(lines.chunks_exact(4)).filter(|(_, corner)| corner[3] != 0.0).map(|(end, _)| end);
@@ -208,7 +208,8 @@ fn rounded(polygons: impl Iterator<Item = Vec<[f64; 2]>>, tolerance: f64) -> Vec
     polygons.flat_map(|polygon| closed(&arcs(&line(polygon), tolerance))).collect()
 }
 
-/// The corners of a polygon, of which those that lie on arcs are left out: x, y, and the angle by which the edge to the next one turns.
+/// The corners of a polygon, of which those that lie on arcs are left out: x, y, and the angle by which the edge to the next one
+/// turns.
 fn arcs(polygon: &[DVec2], tolerance: f64) -> Vec<[f64; 3]> {
     let count = polygon.len();
     let bend = |index: usize| {

@@ -1,7 +1,7 @@
 //! Texts as closed lines: the letters of a font, one after another.
 //!
-//! Which letters there are and where is settled by a shaping engine, so that kerning, ligatures, accents and joined scripts come out
-//! as a reader expects; a line runs in one direction, that of its first letters.
+//! Which letters there are and where is settled by a shaping engine, so that kerning, ligatures, accents and joined scripts come
+//! out as a reader expects; a line runs in one direction, that of its first letters.
 
 use crate::arcs::Lines;
 use crate::fill::{Rule, filled};
@@ -10,7 +10,8 @@ use rustybuzz::ttf_parser::GlyphId;
 use rustybuzz::ttf_parser::OutlineBuilder;
 use rustybuzz::{Face, UnicodeBuffer};
 
-/// The font that comes along: a part of Noto Sans (SIL Open Font License 1.1, see `assets/OFL.txt`): Latin, Greek and Cyrillic letters.
+/// The font that comes along: a part of Noto Sans (SIL Open Font License 1.1, see `assets/OFL.txt`): Latin, Greek and Cyrillic
+/// letters.
 pub(crate) static NOTO_SANS: &[u8] = include_bytes!("../assets/NotoSans-Regular.ttf");
 
 /// Arcs are within this share of the font size from the curves of letters.
@@ -47,8 +48,8 @@ impl<'a> Font<'a> {
         })
     }
 
-    /// The closed lines of a text, with arguments as those of an outline. `size` is the height of the font; the first baseline is the x
-    /// axis, and the next one lies lower by `spacing` times the usual distance.
+    /// The closed lines of a text, with arguments as those of an outline. `size` is the height of the font; the first baseline is
+    /// the x axis, and the next one lies lower by `spacing` times the usual distance.
     pub(crate) fn lines(&self, text: &str, size: f64, spacing: f64, align: Align) -> Vec<f64> {
         let scale = size / f64::from(self.0.units_per_em());
         let leading = spacing * scale * (f64::from(self.0.height()) + f64::from(self.0.line_gap()));

@@ -220,9 +220,9 @@ fn intervals_contain_and_are_narrow() {
             if is_blend {
                 blends += 1;
                 level += usize::from(may_be_level && !is_narrow);
-            } else {
+            } else if !is_orbit {
                 cells += 1;
-                ridges += usize::from(!is_orbit && may_be_level && !is_narrow);
+                ridges += usize::from(may_be_level && !is_narrow);
             }
             assert!(
                 is_orbit || may_be_level || is_narrow,

@@ -57,7 +57,8 @@ fn parts_of_revolutions_are_those_of_known_bodies() {
 
 #[test]
 fn a_part_of_a_revolution_is_as_far_as_the_nearest_of_its_half_planes() {
-    /// Half-planes in which the figure is looked for: their angles are no farther apart than this, times the distance from the axis.
+    /// Half-planes in which the figure is looked for: their angles are no farther apart than this, times the distance from the
+    /// axis.
     const STEPS: u32 = 4000;
     let mut random = Random::new(32);
     for angle in [1.0, 40.0, 90.0, 179.0, 181.0, 250.0, 330.0, 359.0_f64] {

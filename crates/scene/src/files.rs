@@ -8,6 +8,7 @@ use crate::syntax::Written;
 use serde_json::{Value as Json, json};
 use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Where the files come from that a scene names.
 pub trait Files: fmt::Debug {
@@ -58,8 +59,8 @@ impl Files for Folder {
 /// The contents of a file, in the place of a value: `{ "file": NAME }`.
 pub(crate) struct FileNotation;
 
-impl Notation<Vec<u8>> for FileNotation {
-    fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Vec<u8>> {
+impl Notation<Arc<[u8]>> for FileNotation {
+    fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Arc<[u8]>> {
         if !matches!(value, Written::Object(_)) {
             reader.mistyped(value, "a file", Some(r#"for instance { "file": "name.suffix" }"#.into()));
             return None;
@@ -70,21 +71,14 @@ impl Notation<Vec<u8>> for FileNotation {
             reader.labelled(quote("file"), |reader| reader.mistyped(named, "a text", None));
             return None;
         };
-        let contents = reader.files.contents(&name.value);
-        match contents {
-            Ok(contents) => {
-                reader.files_read.push(name.value.to_string());
-                Some(contents)
-            }
-            Err(fault) => {
-                let hint = "names of files are relative to the folder of the scene";
-                reader.error(span(named), format!("can't read {}: {fault}", quote(&name.value)), Some(hint.into()));
-                None
-            }
-        }
+        let contents = reader.contents(&name.value).map_err(|fault| {
+            let hint = "names of files are relative to the folder of the scene";
+            reader.error(span(named), format!("can't read {}: {fault}", quote(&name.value)), Some(hint.into()));
+        });
+        contents.ok()
     }
 
-    fn write(&self, _contents: &Vec<u8>) -> Option<Json> {
+    fn write(&self, _contents: &Arc<[u8]>) -> Option<Json> {
         None
     }
 
@@ -101,8 +95,8 @@ impl Notation<Vec<u8>> for FileNotation {
     }
 }
 
-/// The rows of `width` numbers in a text: one on each line, with blanks, commas or semicolons between them. Empty lines, what follows
-/// a `#`, and a first line of words are left out; so are further numbers of a row.
+/// The rows of `width` numbers in a text: one on each line, with blanks, commas or semicolons between them. Empty lines, what
+/// follows a `#`, and a first line of words are left out; so are further numbers of a row.
 ///
 /// # Errors
 /// The line that is none, as the end of a sentence.

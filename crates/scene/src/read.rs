@@ -75,10 +75,10 @@ fn read_body(text: &str, mut reader: Reader) -> Reading {
     }
     let scene = reader.labelled("the scene".into(), |reader| Scene::read(reader, &root));
     analyse_roots(&mut reader);
-    let mut diagnostics = reader.diagnostics;
+    let mut diagnostics = std::mem::take(&mut reader.diagnostics);
     diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
     let is_sound = diagnostics.iter().all(|diagnostic| diagnostic.severity != Severity::Error);
-    Reading { scene: scene.filter(|_| is_sound), diagnostics, files: reader.files_read }
+    Reading { scene: scene.filter(|_| is_sound), diagnostics, files: reader.into_files() }
 }
 
 /// What to say of a file for a newer program: nothing else in it can be judged.

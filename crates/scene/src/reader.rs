@@ -10,16 +10,17 @@ use crate::syntax::Written;
 use freikugel_field::Field;
 use jsonc_parser::ast::ObjectProp;
 use jsonc_parser::common::Ranged;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The state of reading one document.
 #[derive(Debug)]
 pub(crate) struct Reader {
     /// Where files come from that the document names.
-    pub(crate) files: Box<dyn Files>,
-    /// The names of those that were read.
-    pub(crate) files_read: Vec<String>,
+    files: Box<dyn Files>,
+    /// The contents of those that were read, by their names.
+    files_read: BTreeMap<String, Arc<[u8]>>,
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// The materials by name; `None` if nothing sound is known about them.
     pub(crate) materials: Option<HashMap<String, u32>>,
@@ -46,7 +47,7 @@ impl Reader {
     pub(crate) fn new(files: impl Files + 'static) -> Self {
         Self {
             files: Box::new(files),
-            files_read: Vec::new(),
+            files_read: BTreeMap::new(),
             diagnostics: Vec::new(),
             materials: Some(HashMap::new()),
             nodes: Vec::new(),
@@ -54,6 +55,24 @@ impl Reader {
             label: String::new(),
             errors: 0,
         }
+    }
+
+    /// The contents of a file, which is read once however often it is named.
+    ///
+    /// # Errors
+    /// Why there are none.
+    pub(crate) fn contents(&mut self, name: &str) -> Result<Arc<[u8]>, String> {
+        if let Some(known) = self.files_read.get(name) {
+            return Ok(Arc::clone(known));
+        }
+        let contents: Arc<[u8]> = self.files.contents(name)?.into();
+        self.files_read.insert(name.to_owned(), Arc::clone(&contents));
+        Ok(contents)
+    }
+
+    /// The names of the files that were read.
+    pub(crate) fn into_files(self) -> Vec<String> {
+        self.files_read.into_keys().collect()
     }
 
     pub(crate) fn report(

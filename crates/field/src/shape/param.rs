@@ -101,8 +101,8 @@ pub struct FileParam {
     pub name: &'static str,
     /// What it is for, and what the shape is without it.
     pub about: &'static str,
-    /// The shape of these arguments, which passed all checks of single parameters, with the contents of the file; or what is wrong with
-    /// these.
+    /// The shape of these arguments, which passed all checks of single parameters, with the contents of the file; or what is wrong
+    /// with these.
     pub build: fn(&[f64], &[u8]) -> Result<Field, String>,
 }
 

@@ -1,6 +1,6 @@
 //! Tube along a B-spline, whose pieces become arcs within a tolerance; the distance from these is exact outside.
 
-use super::tube::{Wire, along};
+use super::tube::{TOLERANCE, Wire, along};
 use crate::arcs3::of_curve;
 use crate::curve::{BSpline, Point};
 use crate::remember::remembered;
@@ -24,9 +24,6 @@ pub fn b_spline<V: Into<Value>>(
     let points = points.into_iter().flat_map(|point| point.map(Into::into));
     Form::new(&B_SPLINE, [radius.into(), degree.into(), 0.into()].into_iter().chain(points))
 }
-
-/// Arcs are within this share of the tube's radius from the curve.
-const TOLERANCE: f64 = 2e-3;
 
 impl Special for BSplineTube {
     type General = Wire;

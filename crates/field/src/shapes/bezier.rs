@@ -1,6 +1,6 @@
 //! Tube along a Bézier curve, which becomes arcs within a tolerance; the distance from these is exact outside.
 
-use super::tube::{Wire, along};
+use super::tube::{TOLERANCE, Wire, along};
 use crate::arcs3::of_curve;
 use crate::curve::Bezier;
 use crate::remember::remembered;
@@ -22,9 +22,6 @@ pub fn bezier<V: Into<Value>>(radius: impl Into<Value>, points: impl IntoIterato
 
 /// Curves of a higher degree are hardly ever wanted, and lose precision.
 pub(crate) const MOST_POINTS: usize = 33;
-
-/// Arcs are within this share of the tube's radius from the curve.
-const TOLERANCE: f64 = 2e-3;
 
 impl Special for BezierTube {
     type General = Wire;

@@ -2,8 +2,8 @@
 //!
 //! A flank is the path of the end of a thread that is unwound from the base circle: at the roll angle t it lies at the radius
 //! base * sqrt(1 + t^2), turned by t - atan(t) against its beginning, and leads in the direction in which t turns. Heights of teeth
-//! are those of ISO 53 (1998): one module above the pitch circle, and 1.25 below. Within the base circle flanks are radial; there is
-//! no undercut.
+//! are those of ISO 53 (1998): one module above the pitch circle, and 1.25 below. Within the base circle flanks are radial; there
+//! is no undercut.
 
 use super::outline::{Outline, closed};
 use crate::arcs::Lines;
@@ -19,9 +19,9 @@ pub struct Gear;
 /// The descriptor of [`gear`].
 pub static GEAR: Shape = Shape::special::<Gear>();
 
-/// A gear with so many involute teeth, of which one lies on the y axis. Two gears mesh if they have the same module, that is the pitch
-/// circle's diameter over the number of teeth, and the same pressure angle, and lie half the sum of their pitch circles' diameters apart.
-/// `with("pressure_angle", ...)` chooses another one than 20 degrees, in radians.
+/// A gear with so many involute teeth, of which one lies on the y axis. Two gears mesh if they have the same module, that is the
+/// pitch circle's diameter over the number of teeth, and the same pressure angle, and lie half the sum of their pitch circles'
+/// diameters apart. `with("pressure_angle", ...)` chooses another one than 20 degrees, in radians.
 #[track_caller]
 pub fn gear(teeth: u32, module: impl Into<Value>) -> Form<Gear> {
     Form::new(&GEAR, [teeth.into(), module.into()])

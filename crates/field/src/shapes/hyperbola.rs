@@ -1,11 +1,11 @@
 //! Figure within one branch of a hyperbola, up to a height. Exact, by iteration to the foot point.
 //!
-//! In units of the radius of curvature at the vertex the branch is h(s) = s^2 / (1 + q) with q = sqrt(1 + f s^2), where f is that radius
-//! over the distance of the vertex from the hyperbola's centre; f = 0 makes it a parabola. At the foot point of (x, v)
-//! g(s) = s - x + s (h - v) / q vanishes. Beyond the height of the centre g is convex in s >= 0, below it concave, so that Newton's
+//! In units of the radius of curvature at the vertex the branch is h(s) = s^2 / (1 + q) with q = sqrt(1 + f s^2), where f is that
+//! radius over the distance of the vertex from the hyperbola's centre; f = 0 makes it a parabola. At the foot point of (x, v) g(s)
+//! = s - x + s (h - v) / q vanishes. Beyond the height of the centre g is convex in s >= 0, below it concave, so that Newton's
 //! method neither misses nor passes the root if it starts on the right side of it: from the asymptote, which lies farther out, or
-//! nearer below the centre; or from bounds for the cubic that g is near the vertex.
-//! The way from the foot point is measured along the normal there, so that an error of the foot point counts only by its square.
+//! nearer below the centre; or from bounds for the cubic that g is near the vertex. The way from the foot point is measured along
+//! the normal there, so that an error of the foot point counts only by its square.
 
 use crate::shape_prelude::*;
 
@@ -31,11 +31,12 @@ pub(crate) fn radius_of_parabola(width: f64, height: f64) -> f64 {
 /// Newton's method took at most so many steps in double precision, from any of a million points and for all hyperbolas tried.
 const MAX_STEPS: u32 = 8;
 
-/// Another step is taken while one moves the foot point by more than this share of its distance from the axis; convergence is quadratic.
+/// Another step is taken while one moves the foot point by more than this share of its distance from the axis; convergence is
+/// quadratic.
 const RESIDUAL: f64 = 1e-4;
 
-/// Points nearer to the axis than this, in radii of curvature, are moved off it, where the foot point is not unique. It is a few units in
-/// the last place of single precision.
+/// Points nearer to the axis than this, in radii of curvature, are moved off it, where the foot point is not unique. It is a few
+/// units in the last place of single precision.
 const OFF_AXIS: f64 = 1e-6;
 
 /// For s^2 f <= 1 the inverse of q is at most 1 - CHORD s^2 f: it is convex in s^2, so that it lies below its chord.
@@ -80,8 +81,8 @@ impl Primitive for Hyperbola {
         Ok(())
     }
 
-    /// The radius of curvature and its inverse; half the height; flatness, and the square root of its inverse; in radii of curvature half the
-    /// width and the height.
+    /// The radius of curvature and its inverse; half the height; flatness, and the square root of its inverse; in radii of
+    /// curvature half the width and the height.
     fn prepare(args: &[f64]) -> Vec<f64> {
         let &[width, height, radius] = args else { unreachable!("three numbers") };
         let flatness = flatness(args);

@@ -1,5 +1,5 @@
-//! Any affine map, by its matrix: s f(M^-1 (p - t)), where s is the smallest singular value of M. Keeps exactness if M stretches all
-//! directions alike, otherwise a bound.
+//! Any affine map, by its matrix: s f(M^-1 (p - t)), where s is the smallest singular value of M. Keeps exactness if M stretches
+//! all directions alike, otherwise a bound.
 
 use crate::shape::{of_rows, smallest_stretch};
 use crate::shape_prelude::*;

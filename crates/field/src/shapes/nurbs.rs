@@ -1,7 +1,7 @@
 //! Tube along a rational B-spline, whose pieces become arcs within a tolerance; the distance from these is exact outside.
 
 use super::b_spline::with_even_knots;
-use super::tube::{Wire, along};
+use super::tube::{TOLERANCE, Wire, along};
 use crate::arcs3::{Rational, of_curve};
 use crate::curve::Bezier;
 use crate::remember::remembered;
@@ -26,9 +26,6 @@ pub fn nurbs<V: Into<Value>>(
     let points = points.into_iter().flat_map(|point| point.map(Into::into));
     Form::new(&NURBS, [radius.into(), degree.into(), 0.into(), 0.into()].into_iter().chain(points))
 }
-
-/// Arcs are within this share of the tube's radius from the curve.
-const TOLERANCE: f64 = 2e-3;
 
 impl Special for Nurbs {
     type General = Wire;

@@ -3,8 +3,8 @@
 use super::tube::{Tube, Wire};
 use crate::shape_prelude::*;
 
-/// All that a disc fills while it moves along straight edges and arcs of the plane: what lines of all kinds are cases of. Its arguments
-/// are those of the tube around them.
+/// All that a disc fills while it moves along straight edges and arcs of the plane: what lines of all kinds are cases of. Its
+/// arguments are those of the tube around them.
 #[derive(Clone, Copy, Debug)]
 pub struct Stroke;
 

@@ -1,8 +1,9 @@
-//! Repetition in a grid with chance displacements and turns: a union of copies, so that it is right for shapes of any size and place.
+//! Repetition in a grid with chance displacements and turns: a union of copies, so that it is right for shapes of any size and
+//! place.
 //!
 //! Chance comes from a hash of the seed, the copy's place in the grid, and what is asked for: the finaliser of SplitMix64 (Steele,
-//! Lea and Flood, "Fast Splittable Pseudorandom Number Generators", 2014) after each of these numbers. It is the same everywhere, and a
-//! copy keeps its own when others are added beyond it.
+//! Lea and Flood, "Fast Splittable Pseudorandom Number Generators", 2014) after each of these numbers. It is the same everywhere,
+//! and a copy keeps its own when others are added beyond it.
 
 use super::repeat::{COUNT, SPACING, cell, copies, place};
 use super::rotate::ROTATE;
@@ -19,8 +20,8 @@ pub static REPEAT_VARIED: Shape = Shape::copies::<Varied>();
 
 /// Copies of a shape in rows, columns and layers that are not quite regular.
 pub trait RepeatVaried: Into<Field> {
-    /// As [`Repeat::repeat`](super::repeat::Repeat::repeat), each copy displaced by up to `jitter` along each axis. `with("turn", ...)` also turns them
-    /// by up to this angle in radians, about `axis`; another `seed` gives others.
+    /// As [`Repeat::repeat`](super::repeat::Repeat::repeat), each copy displaced by up to `jitter` along each axis. `with("turn",
+    /// ...)` also turns them by up to this angle in radians, about `axis`; another `seed` gives others.
     #[track_caller]
     fn repeat_varied(self, spacing: impl Into<Triple>, count: [u32; 3], jitter: impl Into<Triple>) -> Field {
         let numbers = spacing.into().0.into_iter().chain(count.map(Value::from)).chain(jitter.into().0);

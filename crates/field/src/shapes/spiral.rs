@@ -1,4 +1,5 @@
-//! Line along a spiral of Archimedes, with a width and round ends. It becomes arcs within a tolerance; the distance from these is exact outside.
+//! Line along a spiral of Archimedes, with a width and round ends. It becomes arcs within a tolerance; the distance from these is
+//! exact outside.
 
 use super::polyline::Stroke;
 use crate::arcs::Lines;
@@ -15,8 +16,8 @@ pub struct Spiral;
 /// The descriptor of [`spiral`].
 pub static SPIRAL: Shape = Shape::special::<Spiral>();
 
-/// A line of some width from the origin outwards, counter-clockwise in so many turns, this far from each other. `with("inner", ...)`
-/// has it begin at a distance from the origin, on the x axis.
+/// A line of some width from the origin outwards, counter-clockwise in so many turns, this far from each other. `with("inner",
+/// ...)` has it begin at a distance from the origin, on the x axis.
 #[track_caller]
 pub fn spiral(width: impl Into<Value>, spacing: impl Into<Value>, turns: impl Into<Value>) -> Form<Spiral> {
     Form::new(&SPIRAL, [width.into(), spacing.into(), turns.into()])

@@ -1,7 +1,7 @@
 //! Tube along a smooth curve through points (Catmull and Rom, "A class of local interpolating splines", 1974), which becomes arcs
 //! within a tolerance; the distance from these is exact outside.
 
-use super::tube::{Tube, Wire, along};
+use super::tube::{TOLERANCE, Tube, Wire, along};
 use crate::arcs3::of_curve;
 use crate::curve::{Bezier, Point};
 use crate::remember::remembered;
@@ -20,9 +20,6 @@ pub fn spline<V: Into<Value>>(radius: impl Into<Value>, points: impl IntoIterato
     let points = points.into_iter().flat_map(|point| point.map(Into::into));
     Form::new(&SPLINE, [radius.into(), 0.into()].into_iter().chain(points))
 }
-
-/// Arcs are within this share of the tube's radius from the curve.
-const TOLERANCE: f64 = 2e-3;
 
 impl Special for SplineTube {
     type General = Wire;

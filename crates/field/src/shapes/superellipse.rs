@@ -1,5 +1,5 @@
-//! Superellipse: |x / a|^n + |y / b|^n <= 1 (Lamé curves). A quarter of its edge becomes arcs within a tolerance; the distance from these and
-//! their mirror images is exact.
+//! Superellipse: |x / a|^n + |y / b|^n <= 1 (Lamé curves). A quarter of its edge becomes arcs within a tolerance; the distance from
+//! these and their mirror images is exact.
 //!
 //! Arcs go over into one another, so that none but the two on the axes has an end that could be the nearest point by itself.
 
@@ -16,8 +16,8 @@ pub struct Superellipse;
 /// The descriptor of [`superellipse`].
 pub static SUPERELLIPSE: Shape = Shape::primitive::<Superellipse>();
 
-/// A superellipse around the origin with these radii along x and y: a star with dents for exponents below 1, at 1 a rhombus, at 2 an
-/// ellipse, and the more like a rectangle the larger the exponent is.
+/// A superellipse around the origin with these radii along x and y: a star with dents for exponents below 1, at 1 a rhombus, at 2
+/// an ellipse, and the more like a rectangle the larger the exponent is.
 #[track_caller]
 pub fn superellipse(x: impl Into<Value>, y: impl Into<Value>, exponent: impl Into<Value>) -> Form<Superellipse> {
     Form::new(&SUPERELLIPSE, [x.into(), y.into(), exponent.into()])
@@ -30,8 +30,8 @@ const TOLERANCE: f64 = 1e-4;
 const LEAST: f64 = 0.2;
 const MOST: f64 = 100.0;
 
-/// Arcs count as longer by this share of the distance from them, so that rounding leaves no gap between two of them. Around a joint their
-/// circles differ by the square of it.
+/// Arcs count as longer by this share of the distance from them, so that rounding leaves no gap between two of them. Around a joint
+/// their circles differ by the square of it.
 const OVERLAP: f64 = 1e-6;
 
 /// How many constants stand before those of the arcs, and how many an arc has.
@@ -57,8 +57,8 @@ fn quarter(args: &[f64]) -> Vec<Edge> {
     ends.windows(2).map(edge).collect()
 }
 
-/// The middle of an arc's chord; the normal of the chord towards the arc; half its length; sine and cosine of half the angle that the
-/// arc turns by; its radius, 0 for a straight edge; and 1 if the arc bulges outward, -1 if it is a dent.
+/// The middle of an arc's chord; the normal of the chord towards the arc; half its length; sine and cosine of half the angle that
+/// the arc turns by; its radius, 0 for a straight edge; and 1 if the arc bulges outward, -1 if it is a dent.
 fn constants(edge: Edge) -> [f64; ROW] {
     let [ax, ay, bx, by, nx, ny, sin, cos, radius] = edge.constants();
     let outward = if edge.turn < 0.0 { -1.0 } else { 1.0 };

@@ -13,8 +13,9 @@ pub struct Svg;
 /// The descriptor of [`svg`].
 pub static SVG: Shape = Shape::special::<Svg>();
 
-/// All that a picture draws, as one figure: the text of its file, such as `"<svg xmlns=...>...</svg>"`. Its middle comes to lie at the
-/// origin unless `with("center", ...)` says otherwise, and it has the size of the picture in pixels unless `with("height", ...)` is given.
+/// All that a picture draws, as one figure: the text of its file, such as `"<svg xmlns=...>...</svg>"`. Its middle comes to lie at
+/// the origin unless `with("center", ...)` says otherwise, and it has the size of the picture in pixels unless `with("height",
+/// ...)` is given.
 #[track_caller]
 pub fn svg(picture: &str) -> Form<Svg> {
     let characters = picture.chars().map(|c| Value::from(u32::from(c)));

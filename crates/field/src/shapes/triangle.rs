@@ -4,7 +4,8 @@ use super::polygon::{edges, polygon_distance};
 use crate::shape_prelude::*;
 use glam::DVec2;
 
-/// The part of a plane within a polygon. Its arguments are its corners, all of them in that plane; the first three don't lie on a line.
+/// The part of a plane within a polygon. Its arguments are its corners, all of them in that plane; the first three don't lie on a
+/// line.
 #[derive(Clone, Copy, Debug)]
 pub struct Panel;
 

@@ -50,6 +50,9 @@ impl Primitive for Wire {
     }
 }
 
+/// Arcs are within this share of the tube's radius from the curve that they stand for.
+pub(crate) const TOLERANCE: f64 = 2e-3;
+
 /// The arguments of the tube along some arcs.
 pub(crate) fn along(radius: f64, arcs: impl IntoIterator<Item = Arc3>) -> Vec<f64> {
     [radius].into_iter().chain(arcs.into_iter().flat_map(|arc| arc.constants())).collect()

@@ -208,17 +208,14 @@ fn are_numbers(names: &[&str]) -> bool {
 /// The numbers of a list that stands in a file: a text as it is, points and planes as rows of numbers.
 fn in_file(reader: &mut Reader, kind: ParamKind, value: &Written<'_>) -> Option<Vec<f64>> {
     let contents = FileNotation.read(reader, value)?;
-    let text = match String::from_utf8(contents) {
-        Ok(text) => text,
-        Err(_) => {
-            reader.error(span(value), format!("the file of {} is no text", reader.label()), None);
-            return None;
-        }
+    let Ok(text) = std::str::from_utf8(&contents) else {
+        reader.error(span(value), format!("the file of {} is no text", reader.label()), None);
+        return None;
     };
     if kind == ParamKind::Text {
-        return Some(characters(&text));
+        return Some(characters(text));
     }
-    let numbers = rows_of(&text, kind.width());
+    let numbers = rows_of(text, kind.width());
     numbers.map_err(|fault| reader.error(span(value), format!("the file of {} {fault}", reader.label()), None)).ok()
 }
 
