@@ -1,10 +1,10 @@
 //! Blends by rows of columns. Bounds.
 //!
-//! Columns stand in a row on the bevel between two right-angled faces, and touch it from below: circles of radius r = k / (columns
-//! - 1), of which the outermost touch it at its ends, and neighbours meet at right angles. With s = (k - |a - b|) / r and z the
-//! distance of s from the nearest even number the minimum is min(a, b) - r (s - (sqrt 2 - sqrt(2 - z^2))) / 2. The idea is hg_sdf's
-//! (Mercury, 2015), whose columns show half of their circles, which makes them steeper than their operands by up to sqrt 2; ours
-//! show a quarter, and are not.
+//! Columns stand in a row on the bevel between two right-angled faces, and touch it from below: circles of radius r = k /
+//! (columns - 1), of which the outermost touch it at its ends, and neighbours meet at right angles. With s = (k - |a -
+//! b|) / r and z the distance of s from the nearest even number the minimum is min(a, b) - r (s - (sqrt 2 - sqrt(2 -
+//! z^2))) / 2. The idea is hg_sdf's (Mercury, 2015), whose columns show half of their circles, which makes them steeper
+//! than their operands by up to sqrt 2; ours show a quarter, and are not.
 
 use super::blend::{self, Family, inverse};
 use crate::shape_prelude::*;
