@@ -107,6 +107,13 @@ impl Arc3 {
         self.frame().2
     }
 
+    /// The direction in which it ends, of length 1.
+    pub(crate) fn end_direction(&self) -> DVec3 {
+        // At both ends it makes the same angle with the chord.
+        let along = self.frame().0;
+        along * (2.0 * self.direction.dot(along)) - self.direction
+    }
+
     /// The direction across the chord on whose side of it the arc lies.
     pub(crate) fn side_of_chord(&self) -> DVec3 {
         self.frame().1

@@ -5,7 +5,7 @@ mod common;
 use common::Random;
 use freikugel_field::curve::{BSpline, Bezier};
 use freikugel_field::shapes::*;
-use freikugel_field::{Extent, Field, Interval, Metric, Program, Structure, analyse, extent};
+use freikugel_field::{Evaluator, Extent, Field, Interval, Metric, Points, Program, Structure, analyse, extent};
 use glam::{DVec3, DVec4};
 
 /// Rounding errors of a few operations on numbers of this size.
@@ -219,5 +219,23 @@ fn what_is_no_curve_is_refused() {
     ] {
         let (analysis, diagnostics) = analyse(&field);
         assert!(analysis.is_none() && diagnostics[0].message.contains(message), "{message}: {diagnostics:?}");
+    }
+}
+
+#[test]
+fn joints_leave_no_gap_in_single_precision() {
+    // Far from the origin of its own coordinates, where rounding moves arcs against each other.
+    let far = |x: f64, y: f64, z: f64| [30.0 + x, y - 20.0, 10.0 + z];
+    let points = [far(0.0, 0.0, 0.0), far(0.5, 0.7, 0.2), far(1.0, 0.0, 0.6), far(0.3, -0.6, 0.9), far(0.0, 0.2, 0.4)];
+    let program = program(&spline(0.05, points).into());
+    let mut random = Random::new(31);
+    let middle = DVec3::new(30.5, -20.0, 10.5);
+    let places: Vec<DVec3> = (0..200_000).map(|_| (middle + random.point(1.0)).as_vec3().as_dvec3()).collect();
+    let [x, y, z] = [0, 1, 2].map(|axis| places.iter().map(|p| p[axis] as f32).collect::<Vec<_>>());
+    let mut found = vec![0.0; places.len()];
+    Evaluator::new(&program).values(Points { x: &x, y: &y, z: &z }, &mut found);
+    for (p, found) in places.into_iter().zip(found) {
+        let expected = program.value(p);
+        assert!((f64::from(found) - expected).abs() < 3e-5, "{p}: {found}, not {expected}");
     }
 }

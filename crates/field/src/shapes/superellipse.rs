@@ -30,8 +30,8 @@ const TOLERANCE: f64 = 1e-4;
 const LEAST: f64 = 0.2;
 const MOST: f64 = 100.0;
 
-/// Arcs count as longer by this share of the distance from them, so that rounding leaves no gap between two of them. Around a joint
-/// their circles differ by the square of it.
+/// Arcs count as longer by this share of the distance from them and of the radii, so that rounding in single precision leaves no gap
+/// between two of them. Around a joint their circles differ by the square of it.
 const OVERLAP: f64 = 1e-6;
 
 /// How many constants stand before those of the arcs, and how many an arc has.
@@ -125,7 +125,7 @@ impl Primitive for Superellipse {
                 let (dx, dy) = (x - mx, y - my);
                 let along = (dx * ny - dy * nx).abs();
                 let across = dx * nx + dy * ny;
-                let overlap = (along + across.abs() + half) * OVERLAP;
+                let overlap = (along + across.abs() + half + a + b) * OVERLAP;
                 let is_between = zero.lt(sin * across + cos * (half - along) + overlap);
                 let to_centre = radius * cos;
                 let excess = (along - half) * (along + half) + across * (across + to_centre * 2.0);

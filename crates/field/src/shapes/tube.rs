@@ -1,12 +1,23 @@
 //! Round tubes along chains of straight edges and arcs. Exact outside.
+//!
+//! Where one goes over into the next smoothly, the joint is never nearer than the points beside it, so that it is no end of either:
+//! single precision could not tell it from them, and would take the curvature of an end for that of the tube.
 
-use crate::arcs3::{Arc3, ROW, reach};
+use crate::arcs3::{self, Arc3, reach};
 use crate::shape_prelude::*;
 
 /// All that a ball fills while it moves along straight edges and arcs: what tubes of all kinds are cases of. Its arguments are its
-/// constants: the radius, then those of each arc.
+/// constants: the radius, then those of each arc, and for its beginning and its end -1 if that is an end of the tube, or a corner;
+/// otherwise how far both arcs overlap there at least.
 #[derive(Clone, Copy, Debug)]
 pub struct Wire;
+
+/// How many constants an arc has.
+const ROW: usize = arcs3::ROW + 2;
+
+/// Where arcs go on they count as longer by this share of the distance from them and of all coordinates, so that rounding in single
+/// precision leaves no gap between two of them. Beyond a joint the circles of both differ by the square of it.
+const OVERLAP: f64 = 1e-6;
 
 impl Primitive for Wire {
     const ABOUT: About =
@@ -24,26 +35,32 @@ impl Primitive for Wire {
     #[inline(always)]
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let arcs = c.part(1, c.count() - 1);
-        let zero = p.x.lift(0.0);
+        let (zero, far) = (p.x.lift(0.0), p.x.lift(f64::from(f32::MAX)));
         let [nearest] = S::fold_rows(
             &arcs,
             ROW,
-            [p.x.lift(f64::from(f32::MAX))],
+            [far],
             #[inline(always)]
             |[nearest], arc| {
-                let [mx, my, mz, ux, uy, uz, nx, ny, nz, half, sin, cos, radius] = arc.get();
+                let [mx, my, mz, ux, uy, uz, nx, ny, nz, half, sin, cos, radius, begins, ends] = arc.get();
                 let (q, u, n) = (p - vec3(mx, my, mz), vec3(ux, uy, uz), vec3(nx, ny, nz));
                 // In the arc's plane as in an outline, and out of it.
-                let (along, across) = (q.dot(u).abs(), q.dot(n));
+                let (along, across) = (q.dot(u), q.dot(n));
                 let out = q.dot(vec3(uy * nz - uz * ny, uz * nx - ux * nz, ux * ny - uy * nx));
-                let is_between = zero.lt(sin * across + cos * (half - along));
+                let goes_on = S::select(along.lt(zero), begins, ends);
+                let is_end = goes_on.lt(zero);
+                let along = along.abs();
+                let overlap = S::select(is_end, zero, (along + across.abs() + half) * OVERLAP + goes_on);
+                let is_between = zero.lt(sin * across + cos * (half - along) + overlap);
                 let to_centre = radius * cos;
                 let excess = (along - half) * (along + half) + across * (across + to_centre * 2.0);
                 let is_arc = zero.lt(radius);
                 let gap = S::select(is_arc, excess / (S::length2(along, across + to_centre) + radius), across);
                 let beside = S::select(is_between, zero, along - half);
                 let across = S::select(is_between, gap, across);
-                [nearest.min(S::length3(beside, across, out))]
+                let distance = S::length3(beside, across, out);
+                // Enclosures over a joint are narrower if each arc ends there; the least of both is the same.
+                [nearest.min(if S::IS_ENCLOSURE { distance } else { S::select(is_between | is_end, distance, far) })]
             },
         );
         nearest - c.at(0)
@@ -53,9 +70,25 @@ impl Primitive for Wire {
 /// Arcs are within this share of the tube's radius from the curve that they stand for.
 pub(crate) const TOLERANCE: f64 = 2e-3;
 
+/// Directions that differ by less are the same: a corner opens a gap that [`OVERLAP`] closes.
+const SMOOTH: f64 = 1e-7;
+
 /// The arguments of the tube along some arcs.
 pub(crate) fn along(radius: f64, arcs: impl IntoIterator<Item = Arc3>) -> Vec<f64> {
-    [radius].into_iter().chain(arcs.into_iter().flat_map(|arc| arc.constants())).collect()
+    let arcs: Vec<Arc3> = arcs.into_iter().collect();
+    // Whether there are ends between an arc and the next one, after the last of which comes the first.
+    let next = arcs.iter().cycle().skip(1);
+    let largest = arcs.iter().map(|arc| arc.from.abs().max(arc.to.abs()).max_element()).fold(0.0, f64::max);
+    let overlap = |(arc, next): (&Arc3, &Arc3)| {
+        let is_line = [arc, next].iter().all(|arc| arc.from != arc.to);
+        let is_smooth = is_line && arc.to == next.from && arc.end_direction().distance(next.direction) < SMOOTH;
+        if is_smooth { largest * OVERLAP } else { -1.0 }
+    };
+    let ends: Vec<f64> = arcs.iter().zip(next).map(overlap).collect();
+    let begins = ends.iter().cycle().skip(arcs.len().saturating_sub(1));
+    let rows = arcs.iter().zip(begins.zip(&ends));
+    let row = |(arc, (begins, ends)): (&Arc3, (&f64, &f64))| arc.constants().into_iter().chain([*begins, *ends]);
+    [radius].into_iter().chain(rows.flat_map(row)).collect()
 }
 
 /// See [`tube`].
