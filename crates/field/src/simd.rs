@@ -1,27 +1,26 @@
 //! Which instruction set the batch kernels run on.
 //!
 //! Kernels are instantiated for SSE2, AVX2 and AVX-512 on x86-64 (SSE4.2 would bring nothing over SSE2 here) and for
-//! what the target has elsewhere. All of them compute the same bits.
+//! what the target has elsewhere. All of them compute the same bits. Without the feature `instruction-sets`, and in the tests
+//! inside of this crate, there is SSE2 alone: kernels for all take minutes to build.
 
 pub use fearless_simd::Level;
 
-/// The best instruction set of this machine.
+/// The best instruction set of this machine that kernels exist for.
 pub fn best() -> Level {
-    Level::new()
+    *available().last().expect("kernels exist for the lowest instruction set")
 }
 
 /// All instruction sets of this machine that kernels exist for, the best one last.
 pub fn available() -> Vec<Level> {
-    let best = best();
-    #[cfg(target_arch = "x86_64")]
-    let levels =
-        [best.as_sse2().map(Level::Sse2), best.as_avx2().map(Level::Avx2), best.as_avx512().map(Level::Avx512)]
-            .into_iter()
-            .flatten()
-            .collect();
+    let best = Level::new();
+    #[cfg(all(target_arch = "x86_64", feature = "instruction-sets", not(test)))]
+    let levels = [best.as_sse2().map(Level::Sse2), best.as_avx2().map(Level::Avx2), best.as_avx512().map(Level::Avx512)];
+    #[cfg(all(target_arch = "x86_64", not(all(feature = "instruction-sets", not(test)))))]
+    let levels = [best.as_sse2().map(Level::Sse2)];
     #[cfg(not(target_arch = "x86_64"))]
-    let levels = vec![best];
-    levels
+    let levels = [Some(best)];
+    levels.into_iter().flatten().collect()
 }
 
 /// The short name of an instruction set: `sse2`, `avx2`, `avx512`, or `native` on other machines than x86-64.
@@ -41,7 +40,7 @@ pub fn name(level: Level) -> &'static str {
 }
 
 /// Runs `$body` compiled for the instruction set of `$level`, with `$token` as the proof that it is there.
-#[cfg(all(target_arch = "x86_64", not(test)))]
+#[cfg(all(target_arch = "x86_64", feature = "instruction-sets", not(test)))]
 macro_rules! dispatch {
     ($level:expr, $token:ident => $body:expr) => {{
         use fearless_simd::Simd;
@@ -66,9 +65,8 @@ macro_rules! dispatch {
     }};
 }
 
-/// As it is outside of tests, but for the lowest instruction set alone. The tests inside of this crate run no kernels worth the
-/// name, and kernels for all instruction sets take minutes to build; those under `tests/` run what everyone runs.
-#[cfg(all(target_arch = "x86_64", test))]
+/// As above, but for the lowest instruction set alone.
+#[cfg(all(target_arch = "x86_64", not(all(feature = "instruction-sets", not(test)))))]
 macro_rules! dispatch {
     ($level:expr, $token:ident => $body:expr) => {{
         use fearless_simd::Simd;
@@ -91,7 +89,7 @@ macro_rules! dispatch {
 pub(crate) use dispatch;
 
 /// As [`dispatch!`], for kernels that run seldom and take long to build: AVX-512 machines run those for AVX2.
-#[cfg(all(target_arch = "x86_64", not(test)))]
+#[cfg(all(target_arch = "x86_64", feature = "instruction-sets", not(test)))]
 macro_rules! dispatch_up_to_avx2 {
     ($level:expr, $token:ident => $body:expr) => {{
         use fearless_simd::Simd;
@@ -112,7 +110,7 @@ macro_rules! dispatch_up_to_avx2 {
 }
 
 /// As [`dispatch!`].
-#[cfg(all(target_arch = "x86_64", test))]
+#[cfg(all(target_arch = "x86_64", not(all(feature = "instruction-sets", not(test)))))]
 macro_rules! dispatch_up_to_avx2 {
     ($level:expr, $token:ident => $body:expr) => {{
         use fearless_simd::Simd;
