@@ -15,7 +15,8 @@ pub fn best() -> Level {
 pub fn available() -> Vec<Level> {
     let best = Level::new();
     #[cfg(all(target_arch = "x86_64", feature = "instruction-sets", not(test)))]
-    let levels = [best.as_sse2().map(Level::Sse2), best.as_avx2().map(Level::Avx2), best.as_avx512().map(Level::Avx512)];
+    let levels =
+        [best.as_sse2().map(Level::Sse2), best.as_avx2().map(Level::Avx2), best.as_avx512().map(Level::Avx512)];
     #[cfg(all(target_arch = "x86_64", not(all(feature = "instruction-sets", not(test)))))]
     let levels = [best.as_sse2().map(Level::Sse2)];
     #[cfg(not(target_arch = "x86_64"))]
