@@ -23,8 +23,8 @@ pub(crate) use table::range_constants;
 pub use table::{CombineTable, CopiesTable, MapTable, ModifyTable, PlaceTable, PrimitiveTable, ProductTable};
 pub(crate) use traits::in_plane;
 pub use traits::{
-    Combine, Copies, ExactForm, Hull, Map, Modify, Place, PlaceCall, Primitive, Product, RangeCall, Settled, Special,
-    Supports,
+    Combine, Copies, ExactForm, Hull, Map, Modify, Parts, Place, PlaceCall, Primitive, Product, RangeCall, Settled,
+    Special, Supports,
 };
 
 /// A function that makes or changes a field.
@@ -57,6 +57,8 @@ pub enum Kind {
     Product(ProductTable),
     /// Makes a body whose cross-section goes from one figure to the next.
     Loft,
+    /// Makes a body of one figure that moves along the outline of another.
+    PerimeterSweep,
     /// Repeats its child without end.
     Endless {
         /// Where each copy is looked up.
@@ -164,7 +166,7 @@ impl Shape {
     pub fn arity(&self) -> Arity {
         match self.kind {
             Kind::Primitive(_) | Kind::Formula => Arity::None,
-            Kind::Combine(_) | Kind::Loft => Arity::Many,
+            Kind::Combine(_) | Kind::Loft | Kind::PerimeterSweep => Arity::Many,
             Kind::Place(_)
             | Kind::Map(_)
             | Kind::Modify(_)

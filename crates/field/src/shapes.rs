@@ -66,6 +66,7 @@ pub mod outline;
 pub mod paint;
 pub mod parabola;
 pub mod parallelogram;
+pub mod perimeter_sweep;
 pub mod pipe;
 pub mod plane;
 pub mod polygon;
@@ -116,6 +117,7 @@ pub mod stroke;
 pub mod superellipse;
 pub mod svg;
 pub mod svg_path;
+pub mod sweep;
 pub mod swirl;
 pub mod symmetry;
 pub mod taper;
@@ -199,6 +201,7 @@ pub use outline::*;
 pub use paint::*;
 pub use parabola::*;
 pub use parallelogram::*;
+pub use perimeter_sweep::*;
 pub use pipe::*;
 pub use plane::*;
 pub use polygon::*;
@@ -247,6 +250,7 @@ pub use stroke::*;
 pub use superellipse::*;
 pub use svg::*;
 pub use svg_path::*;
+pub use sweep::*;
 pub use swirl::*;
 pub use symmetry::*;
 pub use taper::*;
@@ -342,6 +346,7 @@ pub static ALL: &[&Shape] = &[
     &PAINT,
     &PARABOLA,
     &PARALLELOGRAM,
+    &PERIMETER_SWEEP,
     &PIPE,
     &PLANE,
     &POLYGON,
@@ -396,6 +401,7 @@ pub static ALL: &[&Shape] = &[
     &SUPERELLIPSE,
     &SVG,
     &SVG_PATH,
+    &SWEEP,
     &SWIRL,
     &SYMMETRY,
     &TAPER,

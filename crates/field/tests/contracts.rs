@@ -89,8 +89,9 @@ fn the_ball_of_the_bound_is_empty_and_that_of_an_exact_distance_touches() {
             if metric == Metric::Exact && (gradient.length() - 1.0).abs() < 1e-6 {
                 let beyond = p - gradient * (value + margin * value.signum());
                 let touches = contains(&field, beyond) == Some(!here)
-                    // Past a thin edge the other side may already be over: look around the foot point as well.
-                    || (0..20_000).any(|_| {
+                    // Past a thin edge the other side may already be over: look around the foot point as well, so often that a
+                    // tip of half a degree is found.
+                    || (0..200_000).any(|_| {
                         let near = p - gradient * value + random.direction() * margin;
                         contains(&field, near) == Some(!here)
                     });
