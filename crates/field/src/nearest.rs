@@ -4,7 +4,7 @@
 //! values are at least. Whoever comes out of the heap and lies farther than the least value so far ends the search
 //! (best-first search; Hjaltason and Samet, "Distance Browsing in Spatial Databases", 1999).
 
-use crate::analysis::analyse;
+use crate::analysis::{Analysis, analyse, copies};
 use crate::bvh::{Bvh, Waiting};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::field::Field;
@@ -32,23 +32,19 @@ pub struct NearestHit {
 }
 
 impl Nearest {
-    /// Prepares the union of `fields`. Unions among them are taken apart.
+    /// Prepares the union of `fields`. Unions among them are taken apart, and copies that are moved and never turned.
     ///
     /// # Errors
     /// All errors of the fields.
     pub fn new(fields: &[Field]) -> Result<Self, Vec<Diagnostic>> {
-        let mut shapes = Vec::new();
-        fields.iter().for_each(|field| take_apart(field, &mut shapes));
-        let mut faults = Vec::new();
-        let mut known = Vec::with_capacity(shapes.len());
-        for shape in &shapes {
-            let (analysis, diagnostics) = analyse(shape);
-            faults.extend(diagnostics.into_iter().filter(|d| d.severity == Severity::Error));
-            known.extend(analysis);
-        }
+        let diagnostics = fields.iter().flat_map(|field| analyse(field).1);
+        let faults: Vec<Diagnostic> = diagnostics.filter(|d| d.severity == Severity::Error).collect();
         if !faults.is_empty() {
             return Err(faults);
         }
+        let mut shapes = Vec::new();
+        fields.iter().for_each(|field| take_apart(field, &mut shapes));
+        let known: Vec<Analysis> = shapes.iter().filter_map(|shape| analyse(shape).0).collect();
         let mut programs = Vec::with_capacity(shapes.len());
         for shape in &shapes {
             programs.push(Structure::compile(std::slice::from_ref(shape))?.program(DVec3::ZERO));
@@ -119,6 +115,7 @@ fn take_apart(field: &Field, shapes: &mut Vec<Field>) {
         Kind::Combine(table) if table.is_minimum && !field.node().children.is_empty() => {
             field.node().children.iter().for_each(|child| take_apart(child, shapes));
         }
+        Kind::Copies(table) if table.are_moved => shapes.extend(copies(field).into_iter().flatten()),
         _ => shapes.push(field.clone()),
     }
 }

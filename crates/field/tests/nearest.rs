@@ -80,6 +80,21 @@ fn the_number_of_evaluations_grows_far_slower_than_the_number_of_shapes() {
 }
 
 #[test]
+fn copies_are_taken_apart() {
+    let mut random = Random::new(40);
+    let places: Vec<[f64; 3]> = (0..500).map(|_| random.point(1.0).to_array()).collect();
+    let cloud = [sphere(0.02).scatter(places)];
+    let nearest = Nearest::new(&cloud).expect("sound");
+    assert_eq!(nearest.count(), 500);
+    let points = points(&mut random, 100);
+    let mut values = vec![0.0; points.len()];
+    nearest.values(&points, &mut values);
+    assert_eq!(values, whole(&cloud, &points));
+    let evaluations: usize = points.iter().filter_map(|&p| nearest.find(p)).map(|hit| hit.evaluations).sum();
+    assert!(evaluations < 10 * points.len(), "{evaluations} for {} points", points.len());
+}
+
+#[test]
 fn bounds_are_pruned_too() {
     let mut random = Random::new(8);
     let fields: Vec<Field> = (0..1000)

@@ -34,6 +34,7 @@ mod light;
 mod material;
 mod notation;
 mod object;
+mod ply;
 mod read;
 mod reader;
 mod record;

@@ -2,6 +2,7 @@
 
 use crate::files::{FileNotation, rows_of};
 use crate::notation::{Notation, direction_schema, index_of, named_direction, numbers_schema, tidy, tidy_degrees};
+use crate::ply;
 use crate::reader::{Reader, span};
 use crate::schema::Definitions;
 use crate::suggest::listed;
@@ -205,18 +206,26 @@ fn are_numbers(names: &[&str]) -> bool {
     names.iter().all(|name| name.parse::<f64>().is_ok())
 }
 
-/// The numbers of a list that stands in a file: a text as it is, points and planes as rows of numbers.
+/// The numbers of a list that stands in a file: a text as it is, points and planes as rows of numbers, points also as vertices of
+/// a PLY file.
 fn in_file(reader: &mut Reader, kind: ParamKind, value: &Written<'_>) -> Option<Vec<f64>> {
     let contents = FileNotation.read(reader, value)?;
+    let mut refuse = |fault: String| reader.error(span(value), format!("the file of {} {fault}", reader.label()), None);
+    if kind != ParamKind::Text && ply::is_ply(&contents) {
+        if !matches!(kind, ParamKind::Points2 | ParamKind::Points3 | ParamKind::Balls) {
+            refuse("is a PLY file, which holds points".into());
+            return None;
+        }
+        return ply::vertices(&contents, kind.width()).map_err(refuse).ok();
+    }
     let Ok(text) = std::str::from_utf8(&contents) else {
-        reader.error(span(value), format!("the file of {} is no text", reader.label()), None);
+        refuse("is no text".into());
         return None;
     };
     if kind == ParamKind::Text {
         return Some(characters(text));
     }
-    let numbers = rows_of(text, kind.width());
-    numbers.map_err(|fault| reader.error(span(value), format!("the file of {} {fault}", reader.label()), None)).ok()
+    rows_of(text, kind.width()).map_err(refuse).ok()
 }
 
 /// A text by the numbers of its characters.
