@@ -196,6 +196,12 @@ impl<P: Point> BSpline<P> {
         Self::new(degree, all, around)
     }
 
+    /// The spline with the same degree and knots, and as many other control points.
+    pub(crate) fn through(&self, points: Vec<P>) -> Self {
+        debug_assert_eq!(points.len(), self.points.len());
+        Self { degree: self.degree, knots: self.knots.clone(), points }
+    }
+
     /// The degree.
     pub fn degree(&self) -> usize {
         self.degree

@@ -8,8 +8,10 @@ pub mod any_order;
 pub mod arc;
 pub mod arch;
 pub mod b_spline;
+pub mod b_spline_patch;
 pub mod bend;
 pub mod bezier;
+pub mod bezier_patch;
 mod blend;
 pub mod box_frame;
 pub mod capped_torus;
@@ -44,6 +46,7 @@ pub mod engrave;
 mod escape;
 pub mod exponential;
 pub mod extrude;
+mod facets;
 pub mod formula;
 pub mod gear;
 pub mod groove;
@@ -60,6 +63,7 @@ pub mod matrix;
 pub mod moon;
 pub mod morph;
 pub mod nurbs;
+pub mod nurbs_patch;
 pub mod octahedron;
 pub mod offset;
 pub mod outline;
@@ -108,6 +112,7 @@ pub mod solid_angle;
 pub mod sphere;
 pub mod spiral;
 pub mod spline;
+mod spline_sheet;
 pub mod staircase;
 pub mod stairs;
 pub mod star;
@@ -144,8 +149,10 @@ pub use any_order::*;
 pub use arc::*;
 pub use arch::*;
 pub use b_spline::*;
+pub use b_spline_patch::*;
 pub use bend::*;
 pub use bezier::*;
+pub use bezier_patch::*;
 pub use box_frame::*;
 pub use capped_torus::*;
 pub use capsule::*;
@@ -193,6 +200,7 @@ pub use matrix::*;
 pub use moon::*;
 pub use morph::*;
 pub use nurbs::*;
+pub use nurbs_patch::*;
 pub use octahedron::*;
 pub use offset::*;
 pub use outline::*;
@@ -281,8 +289,10 @@ pub static ALL: &[&Shape] = &[
     &ARC,
     &ARCH,
     &B_SPLINE,
+    &B_SPLINE_PATCH,
     &BEND,
     &BEZIER,
+    &BEZIER_PATCH,
     &BOX_FRAME,
     &CAPPED_TORUS,
     &CAPSULE,
@@ -336,6 +346,7 @@ pub static ALL: &[&Shape] = &[
     &MOON,
     &MORPH,
     &NURBS,
+    &NURBS_PATCH,
     &OCTAHEDRON,
     &OFFSET,
     &OUTLINE,

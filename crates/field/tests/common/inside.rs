@@ -348,6 +348,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         ("superellipse" | "gear" | "spiral", _) => return None,
         ("text" | "svg" | "svg_path" | "bezier" | "b_spline" | "spline", _) => return None,
         ("stroke" | "nurbs" | "tapered_bezier" | "tapered_b_spline" | "tapered_spline", _) => return None,
+        ("bezier_patch" | "b_spline_patch" | "nurbs_patch", _) => return None,
         (name, _) if is_blend(name) || is_carved(name) => return None,
         (name, args) => panic!("say in the membership test what lies inside {name} with {} numbers", args.len()),
     })
