@@ -22,6 +22,7 @@ pub mod chamfered_box;
 pub mod chamfered_rectangle;
 pub mod circle;
 pub mod circle_segment;
+pub mod clothoid;
 pub mod columns;
 pub mod complement;
 pub mod cone;
@@ -58,6 +59,7 @@ pub mod intersection;
 pub mod lens;
 pub mod link;
 pub mod loft;
+pub mod logarithmic_spiral;
 pub mod mandelbulb;
 pub mod matrix;
 pub mod moon;
@@ -161,6 +163,7 @@ pub use chamfered_box::*;
 pub use chamfered_rectangle::*;
 pub use circle::*;
 pub use circle_segment::*;
+pub use clothoid::*;
 pub use columns::*;
 pub use complement::*;
 pub use cone::*;
@@ -195,6 +198,7 @@ pub use intersection::*;
 pub use lens::*;
 pub use link::*;
 pub use loft::*;
+pub use logarithmic_spiral::*;
 pub use mandelbulb::*;
 pub use matrix::*;
 pub use moon::*;
@@ -303,6 +307,7 @@ pub static ALL: &[&Shape] = &[
     &CHAMFERED_RECTANGLE,
     &CIRCLE,
     &CIRCLE_SEGMENT,
+    &CLOTHOID,
     &COLUMNS_UNION,
     &COLUMNS_INTERSECTION,
     &COLUMNS_DIFFERENCE,
@@ -341,6 +346,7 @@ pub static ALL: &[&Shape] = &[
     &LENS,
     &LINK,
     &LOFT,
+    &LOGARITHMIC_SPIRAL,
     &MANDELBULB,
     &MATRIX,
     &MOON,
