@@ -160,8 +160,8 @@ impl<P: Point> BSpline<P> {
         Self::closed_with(degree, &knots, points)
     }
 
-    /// The spline that goes around and closes, with the knots of one round: one more than there are points, of which the last is the
-    /// first of the next round.
+    /// The spline that goes around and closes, with the knots of one round: one more than there are points, of which the last is
+    /// the first of the next round.
     ///
     /// # Errors
     /// If there are too few points or another count of knots, or knots fall, or one is there more often than the degree, at which

@@ -1,8 +1,8 @@
 //! Surfaces as triangles within a tolerance.
 //!
-//! Bézier patches are halved until each is cut evenly along both parameters, into as many steps as a bound of its second derivatives
-//! asks for (Filip, Magedson and Markot, "Surface algorithms using bounds on derivatives", 1986). Patches side by side are halved
-//! together and have their steps in common, and with them their corners: there are no gaps.
+//! Bézier patches are halved until each is cut evenly along both parameters, into as many steps as a bound of its second
+//! derivatives asks for (Filip, Magedson and Markot, "Surface algorithms using bounds on derivatives", 1986). Patches side by
+//! side are halved together and have their steps in common, and with them their corners: there are no gaps.
 //!
 //! Of rational patches it is the points `(w x, w y, w z, w)` that triangles of that space stand for: seen from the origin, these
 //! are triangles, too (compare Zheng and Sederberg, "Estimating tessellation parameter intervals for rational curves and surfaces",
@@ -19,6 +19,9 @@ pub(crate) type Patches = Vec<Vec<BezierPatch<DVec4>>>;
 
 /// Pieces that take more steps than this are halved: near their ends they may bend less.
 const MOST_STEPS: f64 = 8.0;
+
+/// So many times as many triangles as possible may be asked for before anything is halved; with each time it is, half as many.
+const ALLOWANCE: f64 = 64.0;
 
 /// Cells in blocks of so many by so many follow one another, so that triangles in a row lie near to each other.
 const BLOCK: usize = 2;
@@ -39,6 +42,7 @@ impl Cut {
     /// # Errors
     /// How many triangles it would take, if these are too many.
     pub(crate) fn new(mut patches: Patches, tolerance: f64) -> Result<Self, f64> {
+        let mut allowance = ALLOWANCE;
         loop {
             let [of_u, of_v] = counts(&patches, tolerance);
             let triangles = 2.0 * of_u.iter().sum::<f64>() * of_v.iter().sum::<f64>();
@@ -47,10 +51,10 @@ impl Cut {
                 let steps = [of_u, of_v].map(|counts| counts.into_iter().map(|count| count as usize).collect());
                 return Ok(Self { patches, steps });
             }
-            // Halves take fewer steps than the whole, but each patch takes two triangles.
-            if !of_u.iter().chain(&of_v).any(is_long) || 2 * of_u.len() * of_v.len() > MOST_TRIANGLES {
+            if !of_u.iter().chain(&of_v).any(is_long) || triangles > allowance * MOST_TRIANGLES as f64 {
                 return Err(triangles);
             }
+            allowance = (allowance / 2.0).max(1.0);
             for row in &mut patches {
                 let pieces = row.drain(..).zip(&of_v);
                 *row = pieces.flat_map(|(patch, count)| halves(patch, is_long(count), BezierPatch::split_v)).collect();

@@ -26,8 +26,8 @@ pub fn b_spline<V: Into<Value>>(
 }
 
 impl Form<BSplineTube> {
-    /// Gives it knots that never fall: as many as there are points, the degree and 1 together, none of them more than the degree and
-    /// 1 times. If it is closed, those of one round: one more than there are points.
+    /// Gives it knots that never fall: as many as there are points, the degree and 1 together, none of them more than the degree
+    /// and 1 times. If it is closed, those of one round: one more than there are points.
     #[must_use]
     pub fn knots<V: Into<Value>>(self, knots: impl IntoIterator<Item = V>) -> Self {
         self.with_knots("knots", knots)

@@ -11,9 +11,9 @@ pub struct BSplineSheet;
 /// The descriptor of [`b_spline_patch`].
 pub static B_SPLINE_PATCH: Shape = Shape::special::<BSplineSheet>();
 
-/// A sheet, this thick to both sides, along the B-spline surface with these rows of control points, evenly spaced knots, and degrees
-/// along u, which leads from row to row, and v, which leads along a row. `with("closed_u", ...)` and `with("closed_v", ...)` close it;
-/// [`Form::knots_u`] and [`Form::knots_v`] give it other knots.
+/// A sheet, this thick to both sides, along the B-spline surface with these rows of control points, evenly spaced knots, and
+/// degrees along u, which leads from row to row, and v, which leads along a row. `with("closed_u", ...)` and `with("closed_v",
+/// ...)` close it; [`Form::knots_u`] and [`Form::knots_v`] give it other knots.
 #[track_caller]
 pub fn b_spline_patch<V: Into<Value>, R: IntoIterator<Item = [V; 3]>>(
     radius: impl Into<Value>,
@@ -26,8 +26,8 @@ pub fn b_spline_patch<V: Into<Value>, R: IntoIterator<Item = [V; 3]>>(
 }
 
 impl Form<BSplineSheet> {
-    /// Gives it knots along u that never fall: as many as there are rows, the degree and 1 together, none of them more than the degree
-    /// and 1 times. If it is closed along u, those of one round: one more than there are rows.
+    /// Gives it knots along u that never fall: as many as there are rows, the degree and 1 together, none of them more than the
+    /// degree and 1 times. If it is closed along u, those of one round: one more than there are rows.
     #[must_use]
     pub fn knots_u<V: Into<Value>>(self, knots: impl IntoIterator<Item = V>) -> Self {
         self.with_knots("knots_u", knots)

@@ -42,7 +42,7 @@ impl Special for BezierSheet {
                 "The control points [x, y, z]: a list of rows, each of them a list of points. Four rows of four make a bicubic patch.",
             ),
         ],
-        elsewhere: &["bicubic_patch", "Bézier surface", "Coons patch", "bilinear patch"],
+        elsewhere: &["bicubic_patch", "Bézier surface", "bilinear patch"],
         example: r#"{ "bezier_patch": { "radius": 0.06, "tolerance": 0.01, "points": [
             [[-1, -1, 0.3], [-0.3, -1, -0.6], [0.3, -1, 0.9], [1, -1, 0]],
             [[-1, -0.3, -0.4], [-0.3, -0.3, 1.4], [0.3, -0.3, 0.2], [1, -0.3, -0.3]],

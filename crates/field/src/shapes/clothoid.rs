@@ -1,7 +1,8 @@
-//! Line along a clothoid, with a width and round ends. It becomes arcs within a tolerance; the distance from these is exact outside.
+//! Line along a clothoid, with a width and round ends. It becomes arcs within a tolerance; the distance from these is exact
+//! outside.
 //!
-//! Its points are Fresnel's integrals (Levien, "The Euler spiral: a mathematical history", 2008), summed up over quarters of a turn by
-//! Gauss's rule.
+//! Its points are Fresnel's integrals (Levien, "The Euler spiral: a mathematical history", 2008), summed up over quarters of a
+//! turn by Gauss's rule.
 
 use super::polyline::Stroke;
 use super::spiral::{line, quarters};
@@ -17,8 +18,8 @@ pub struct Clothoid;
 /// The descriptor of [`clothoid`].
 pub static CLOTHOID: Shape = Shape::special::<Clothoid>();
 
-/// A line of some width and length from the origin along x, whose curvature grows evenly from nothing, until its direction has turned
-/// to the left by an angle in degrees. `with("symmetric", ...)` has it lead from the origin to the other side, too.
+/// A line of some width and length from the origin along x, whose curvature grows evenly from nothing, until its direction has
+/// turned to the left by an angle in degrees. `with("symmetric", ...)` has it lead from the origin to the other side, too.
 #[track_caller]
 pub fn clothoid(width: impl Into<Value>, length: impl Into<Value>, degrees: f64) -> Form<Clothoid> {
     Form::new(&CLOTHOID, [width.into(), length.into(), degrees.to_radians().into()])
@@ -53,7 +54,7 @@ impl Special for Clothoid {
             ),
         ],
         elsewhere: &["Euler spiral", "Cornu spiral", "spiro", "transition curve"],
-        example: r#"{ "extrude": { "height": 0.4, "shape": { "clothoid": { "width": 0.1, "length": 2.2, "turn": 800, "symmetric": true } } } }"#,
+        example: r#"{ "extrude": { "height": 0.4, "shape": { "clothoid": { "width": 0.04, "length": 3.2, "turn": 500, "symmetric": true } } } }"#,
     };
 
     fn check(args: &[f64]) -> Result<(), String> {

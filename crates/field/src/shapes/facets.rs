@@ -7,8 +7,8 @@ use crate::surface::BezierPatch;
 use crate::triangles::{Cut, MOST_TRIANGLES, Patches};
 use glam::DVec4;
 
-/// What is at most a radius away from some triangles. Its arguments are the radius, and the three corners of each triangle, of which
-/// those that follow one another are near to each other.
+/// What is at most a radius away from some triangles. Its arguments are the radius, and the three corners of each triangle, of
+/// which those that follow one another are near to each other.
 #[derive(Clone, Copy, Debug)]
 pub struct Facets;
 

@@ -1,5 +1,5 @@
-//! Line along a logarithmic spiral, with a width and round ends. It becomes arcs within a tolerance; the distance from these is exact
-//! outside.
+//! Line along a logarithmic spiral, with a width and round ends. It becomes arcs within a tolerance; the distance from these is
+//! exact outside.
 
 use super::polyline::Stroke;
 use super::spiral::{MOST_TURNS, line, quarters};
@@ -15,8 +15,8 @@ pub struct LogarithmicSpiral;
 /// The descriptor of [`logarithmic_spiral`].
 pub static LOGARITHMIC_SPIRAL: Shape = Shape::special::<LogarithmicSpiral>();
 
-/// A line of some width around the origin, counter-clockwise in so many turns. It begins on the x axis at the distance `inner`, which
-/// each turn multiplies by `growth`.
+/// A line of some width around the origin, counter-clockwise in so many turns. It begins on the x axis at the distance `inner`,
+/// which each turn multiplies by `growth`.
 #[track_caller]
 pub fn logarithmic_spiral(
     width: impl Into<Value>,

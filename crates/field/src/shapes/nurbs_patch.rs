@@ -11,10 +11,10 @@ pub struct NurbsSheet;
 /// The descriptor of [`nurbs_patch`].
 pub static NURBS_PATCH: Shape = Shape::special::<NurbsSheet>();
 
-/// A sheet, this thick to both sides, along the rational B-spline surface with these rows of control points x, y, z and weights above
-/// 0, evenly spaced knots, and degrees along u, which leads from row to row, and v, which leads along a row. `with("closed_u", ...)`
-/// and `with("closed_v", ...)` close it; `with("knots_u", &[1.into()])` and the same along v make it of rational Bézier patches;
-/// [`Form::knots_u`] and [`Form::knots_v`] give it other knots.
+/// A sheet, this thick to both sides, along the rational B-spline surface with these rows of control points x, y, z and weights
+/// above 0, evenly spaced knots, and degrees along u, which leads from row to row, and v, which leads along a row.
+/// `with("closed_u", ...)` and `with("closed_v", ...)` close it; `with("knots_u", &[1.into()])` and the same along v make it of
+/// rational Bézier patches; [`Form::knots_u`] and [`Form::knots_v`] give it other knots.
 #[track_caller]
 pub fn nurbs_patch<V: Into<Value>, R: IntoIterator<Item = [V; 4]>>(
     radius: impl Into<Value>,
@@ -27,8 +27,8 @@ pub fn nurbs_patch<V: Into<Value>, R: IntoIterator<Item = [V; 4]>>(
 }
 
 impl Form<NurbsSheet> {
-    /// Gives it knots along u that never fall: as many as there are rows, the degree and 1 together, none of them more than the degree
-    /// and 1 times. If it is closed along u, those of one round: one more than there are rows.
+    /// Gives it knots along u that never fall: as many as there are rows, the degree and 1 together, none of them more than the
+    /// degree and 1 times. If it is closed along u, those of one round: one more than there are rows.
     #[must_use]
     pub fn knots_u<V: Into<Value>>(self, knots: impl IntoIterator<Item = V>) -> Self {
         self.with_knots("knots_u", knots)
