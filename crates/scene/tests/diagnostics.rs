@@ -186,7 +186,7 @@ fn knots_and_nets() {
         (spline("[0, 0, 1]"), "`b_spline`: a spline of degree 1 with 2 points has 4 knots, not 3", r#""b_spline""#),
         (spline("[0, 0, 0, 1]"), "`b_spline`: a spline of degree 1 has no knot more than 2 times", r#""b_spline""#),
         (spline("[0, 2, 1, 3]"), "`knots` must not fall, but entry 3 is 1 after 2", "[0, 2, 1, 3]"),
-        (spline("\"odd\""), "`even` or `pieces`", r#""odd""#),
+        (spline("\"odd\""), "`knots` can't be `odd`", r#""odd""#),
         (spline("[0, \"1\", 2, 3]"), "entry 2 of `knots`", r#""1""#),
         (
             patch("[[[0, 0, 0], [1, 0, 0]], [[0, 1, 0]]]"),
