@@ -314,7 +314,8 @@ impl Walk {
         let mut sound = true;
         for (index, param) in about.params.iter().enumerate() {
             let width = param.kind.width();
-            let end = if param.kind.is_list() { node.args.len() } else { start + width };
+            let own = param.kind.length(node.args.get(start..).unwrap_or_default());
+            let end = start.saturating_add(own);
             let is_there = end <= node.args.len() && end > start && (end - start).is_multiple_of(width);
             let fault = if is_there {
                 let numbers: Vec<f64> = node.args[start..end].iter().map(|value| value.number()).collect();

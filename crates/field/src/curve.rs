@@ -126,13 +126,17 @@ impl<P: Point> BSpline<P> {
         }
         if knots.len() != points.len() + degree + 1 {
             let wanted = points.len() + degree + 1;
-            return Err(format!("a spline of degree {degree} with {} points has {wanted} knots", points.len()));
+            let (count, own) = (points.len(), knots.len());
+            return Err(format!("a spline of degree {degree} with {count} points has {wanted} knots, not {own}"));
         }
         if !knots.is_sorted() || knots.iter().any(|knot| !knot.is_finite()) {
             return Err("knots must be finite, and must not fall".into());
         }
-        if knots.windows(degree + 2).any(|run| run[0] == run[degree + 1]) || knots[degree] == knots[points.len()] {
+        if knots.windows(degree + 2).any(|run| run[0] == run[degree + 1]) {
             return Err(format!("a spline of degree {degree} has no knot more than {} times", degree + 1));
+        }
+        if knots[degree] == knots[points.len()] {
+            return Err(format!("nothing lies between the first {degree} knots and the last {degree}"));
         }
         Ok(Self { degree, knots, points })
     }
@@ -152,12 +156,50 @@ impl<P: Point> BSpline<P> {
     /// # Errors
     /// If there are too few points.
     pub fn closed(degree: usize, points: &[P]) -> Result<Self, String> {
-        let around: Vec<P> = points.iter().chain(points.iter().cycle().take(degree)).copied().collect();
-        let knots = (0..around.len() + degree + 1).map(|index| index as f64).collect();
-        if points.len() <= degree {
+        let knots: Vec<f64> = (0..=points.len()).map(|index| index as f64).collect();
+        Self::closed_with(degree, &knots, points)
+    }
+
+    /// The spline that goes around and closes, with the knots of one round: one more than there are points, of which the last is
+    /// the first of the next round.
+    ///
+    /// # Errors
+    /// If there are too few points or another count of knots, or knots fall, or one is there more often than the degree, at which
+    /// the curve would break; or nothing lies between the first and the last.
+    pub fn closed_with(degree: usize, knots: &[f64], points: &[P]) -> Result<Self, String> {
+        let (count, own) = (points.len(), knots.len());
+        if count <= degree {
             return Err(format!("a closed spline of degree {degree} has at least {} points", degree + 1));
         }
-        Self::new(degree, knots, around)
+        if own != count + 1 {
+            let wanted = count + 1;
+            return Err(format!(
+                "a closed spline of degree {degree} with {count} points has {wanted} knots, not {own}"
+            ));
+        }
+        // As many as the degree of the rounds before and after, too. Knots that are the same stay the same.
+        let (first, last) = (knots[0], knots[count]);
+        let knot = |index: usize| {
+            let place = index + count - degree;
+            let own = knots[place % count];
+            match place / count {
+                0 => first - (last - own),
+                1 => own,
+                _ => last + (own - first),
+            }
+        };
+        let all: Vec<f64> = (0..=count + 2 * degree).map(knot).collect();
+        if first < last && all.windows(degree + 1).any(|run| run[0] == run[degree]) {
+            return Err(format!("a closed spline of degree {degree} has no knot more than {degree} times"));
+        }
+        let around: Vec<P> = points.iter().chain(points.iter().cycle().take(degree)).copied().collect();
+        Self::new(degree, all, around)
+    }
+
+    /// The spline with the same degree and knots, and as many other control points.
+    pub(crate) fn through(&self, points: Vec<P>) -> Self {
+        debug_assert_eq!(points.len(), self.points.len());
+        Self { degree: self.degree, knots: self.knots.clone(), points }
     }
 
     /// The degree.
@@ -329,6 +371,8 @@ mod tests {
         let mut splines: Vec<_> =
             (1..=4).map(|degree| BSpline::clamped(degree, points()).expect("enough points")).collect();
         splines.extend((1..=3).map(|degree| BSpline::closed(degree, &points()).expect("enough points")));
+        let round = [-1.0, -0.5, 0.3, 0.3, 1.1, 2.0, 2.5];
+        splines.extend((2..=3).map(|degree| BSpline::closed_with(degree, &round, &points()).expect("a sound spline")));
         splines.push(
             BSpline::new(2, vec![0.0, 0.0, 0.0, 0.3, 0.3, 2.0, 2.5, 2.5, 3.0], points()).expect("a sound spline"),
         );
@@ -381,6 +425,18 @@ mod tests {
     }
 
     #[test]
+    fn rounds_join_as_smoothly_as_the_degree_allows() {
+        let round = [-1.0, -0.5, 0.3, 0.7, 1.1, 2.0, 2.5];
+        let spline = BSpline::closed_with(3, &round, &points()).expect("a sound spline");
+        let slope = spline.derivative().expect("of degree 2");
+        let bend = slope.derivative().expect("of degree 1");
+        assert_eq!(spline.domain(), (-1.0, 2.5));
+        for one in [&spline, &slope, &bend] {
+            assert!(one.at(-1.0).distance(one.at(2.5)) < 1e-12, "{one:?}");
+        }
+    }
+
+    #[test]
     fn a_rational_spline_is_a_circle() {
         let w = 0.5_f64.sqrt();
         let corners = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [-1.0, 1.0], [-1.0, 0.0]];
@@ -405,6 +461,15 @@ mod tests {
             (6, vec![0.0; 13]),
         ] {
             assert!(BSpline::new(degree, knots.clone(), points()).is_err(), "{degree} {knots:?}");
+        }
+        for knots in [
+            vec![0.0, 1.0, 2.0],
+            vec![0.0, 1.0, 2.0, 1.5, 4.0, 5.0, 6.0],
+            vec![0.0, 1.0, 1.0, 1.0, 4.0, 5.0, 6.0],
+            vec![0.0, 0.0, 1.0, 2.0, 4.0, 6.0, 6.0],
+            vec![0.0; 7],
+        ] {
+            assert!(BSpline::closed_with(2, &knots, &points()).is_err(), "{knots:?}");
         }
         let spline = BSpline::clamped(2, points()).expect("sound");
         assert!(spline.inserted(-1.0).is_err() && spline.inserted(0.0).is_err());

@@ -4,7 +4,7 @@
 //! all of them with the place they come from. Equal subtrees stay separate: changing one never changes the other.
 
 use crate::formula::{Formula, FormulaError};
-use crate::shape::Shape;
+use crate::shape::{ParamKind, Shape};
 use crate::shapes;
 use std::marker::PhantomData;
 use std::ops::{Add, BitAnd, BitOr, Neg, Not, Sub};
@@ -122,7 +122,7 @@ impl Field {
             if place >= args.len() {
                 args.extend(param.default.unwrap_or_default().iter().map(|&number| Value::Literal(number)));
             }
-            place += param.kind.width();
+            place += param.kind.length(args.get(place..).unwrap_or_default());
         }
         let children: Vec<Field> = children.into_iter().collect();
         let depth = 1 + children.iter().map(|c| c.0.depth).max().unwrap_or(0);
@@ -159,17 +159,20 @@ impl Field {
         self.0.depth
     }
 
-    /// The node with parameter `name` set to `numbers`.
+    /// The node with parameter `name` set to `numbers`, as [`ParamKind`] says that they are stored.
     ///
     /// # Panics
-    /// If the shape has no such parameter, or another count of numbers.
+    /// If the shape has no such parameter, or another count of numbers, unless these are knots.
     #[must_use]
     pub fn with(mut self, name: &str, numbers: &[Value]) -> Self {
         let node = Arc::make_mut(&mut self.0);
         let index = node.shape.about.params.iter().position(|p| p.name == name);
         let index = index.unwrap_or_else(|| panic!("{} has no parameter {name}", node.shape.about.name));
-        let range = node.shape.range(index, node.args.len());
-        node.args[range].copy_from_slice(numbers);
+        let range = node.shape.range(index, &node.args);
+        match node.shape.about.params[index].kind {
+            ParamKind::Knots => drop(node.args.splice(range, numbers.iter().copied())),
+            _ => node.args[range].copy_from_slice(numbers),
+        }
         self
     }
 
@@ -225,7 +228,7 @@ impl Node {
 
     /// The numbers of parameter `index`.
     pub fn argument(&self, index: usize) -> Vec<f64> {
-        self.args[self.shape.range(index, self.args.len())].iter().map(|value| value.number()).collect()
+        self.args[self.shape.range(index, &self.args)].iter().map(|value| value.number()).collect()
     }
 
     /// Formula number `index`, if it is there and sound.
@@ -263,6 +266,13 @@ impl<P> Form<P> {
     #[must_use]
     pub fn with(self, name: &str, numbers: &[Value]) -> Self {
         Self { field: self.field.with(name, numbers), ..self }
+    }
+
+    /// The same with a list of knots as parameter `name`.
+    pub(crate) fn with_knots<V: Into<Value>>(self, name: &str, knots: impl IntoIterator<Item = V>) -> Self {
+        let knots: Vec<Value> = knots.into_iter().map(Into::into).collect();
+        let first = Value::Literal((ParamKind::KNOTS.len() + knots.len()) as f64);
+        self.with(name, &[&[first], &knots[..]].concat())
     }
 }
 

@@ -64,7 +64,9 @@ pub mod simd;
 mod slope;
 mod spine;
 pub mod structure;
+pub mod surface;
 mod tapers;
+mod triangles;
 pub mod vector;
 
 pub use analysis::{Analysis, MAX_DEPTH, analyse, analyse_body, analyse_together, copies, extent};

@@ -17,6 +17,8 @@ mod param;
 mod table;
 mod traits;
 
+use crate::field::Value;
+
 pub use param::{AXIS, About, FileParam, Param, ParamKind, SHORTEST_DIRECTION};
 pub(crate) use param::{of_rows, smallest_stretch};
 pub(crate) use table::range_constants;
@@ -214,14 +216,16 @@ impl Shape {
         self.about.params.last().is_some_and(|p| p.name == AXIS.name)
     }
 
-    /// Where the numbers of parameter `index` lie among the arguments of a node with `count` numbers in all.
+    /// Where the numbers of parameter `index` lie among all arguments of a node.
     ///
     /// # Panics
     /// If there is no such parameter.
-    pub fn range(&self, index: usize, count: usize) -> std::ops::Range<usize> {
-        let start = self.about.params[..index].iter().map(|p| p.kind.width()).sum();
-        let kind = self.about.params[index].kind;
-        start..if kind.is_list() { count } else { start + kind.width() }
+    pub fn range(&self, index: usize, args: &[Value]) -> std::ops::Range<usize> {
+        let end = |start: usize, param: &Param| {
+            start.saturating_add(param.kind.length(args.get(start..).unwrap_or_default()))
+        };
+        let start = self.about.params[..index].iter().fold(0, end);
+        start..end(start, &self.about.params[index])
     }
 }
 

@@ -8,8 +8,10 @@ pub mod any_order;
 pub mod arc;
 pub mod arch;
 pub mod b_spline;
+pub mod b_spline_patch;
 pub mod bend;
 pub mod bezier;
+pub mod bezier_patch;
 mod blend;
 pub mod box_frame;
 pub mod capped_torus;
@@ -20,6 +22,7 @@ pub mod chamfered_box;
 pub mod chamfered_rectangle;
 pub mod circle;
 pub mod circle_segment;
+pub mod clothoid;
 pub mod columns;
 pub mod complement;
 pub mod cone;
@@ -44,6 +47,7 @@ pub mod engrave;
 mod escape;
 pub mod exponential;
 pub mod extrude;
+mod facets;
 pub mod formula;
 pub mod gear;
 pub mod groove;
@@ -55,11 +59,13 @@ pub mod intersection;
 pub mod lens;
 pub mod link;
 pub mod loft;
+pub mod logarithmic_spiral;
 pub mod mandelbulb;
 pub mod matrix;
 pub mod moon;
 pub mod morph;
 pub mod nurbs;
+pub mod nurbs_patch;
 pub mod octahedron;
 pub mod offset;
 pub mod outline;
@@ -109,6 +115,7 @@ pub mod solid_angle;
 pub mod sphere;
 pub mod spiral;
 pub mod spline;
+mod spline_sheet;
 pub mod staircase;
 pub mod stairs;
 pub mod star;
@@ -146,8 +153,10 @@ pub use any_order::*;
 pub use arc::*;
 pub use arch::*;
 pub use b_spline::*;
+pub use b_spline_patch::*;
 pub use bend::*;
 pub use bezier::*;
+pub use bezier_patch::*;
 pub use box_frame::*;
 pub use capped_torus::*;
 pub use capsule::*;
@@ -156,6 +165,7 @@ pub use chamfered_box::*;
 pub use chamfered_rectangle::*;
 pub use circle::*;
 pub use circle_segment::*;
+pub use clothoid::*;
 pub use columns::*;
 pub use complement::*;
 pub use cone::*;
@@ -190,11 +200,13 @@ pub use intersection::*;
 pub use lens::*;
 pub use link::*;
 pub use loft::*;
+pub use logarithmic_spiral::*;
 pub use mandelbulb::*;
 pub use matrix::*;
 pub use moon::*;
 pub use morph::*;
 pub use nurbs::*;
+pub use nurbs_patch::*;
 pub use octahedron::*;
 pub use offset::*;
 pub use outline::*;
@@ -285,8 +297,10 @@ pub static ALL: &[&Shape] = &[
     &ARC,
     &ARCH,
     &B_SPLINE,
+    &B_SPLINE_PATCH,
     &BEND,
     &BEZIER,
+    &BEZIER_PATCH,
     &BOX_FRAME,
     &CAPPED_TORUS,
     &CAPSULE,
@@ -297,6 +311,7 @@ pub static ALL: &[&Shape] = &[
     &CHAMFERED_RECTANGLE,
     &CIRCLE,
     &CIRCLE_SEGMENT,
+    &CLOTHOID,
     &COLUMNS_UNION,
     &COLUMNS_INTERSECTION,
     &COLUMNS_DIFFERENCE,
@@ -335,11 +350,13 @@ pub static ALL: &[&Shape] = &[
     &LENS,
     &LINK,
     &LOFT,
+    &LOGARITHMIC_SPIRAL,
     &MANDELBULB,
     &MATRIX,
     &MOON,
     &MORPH,
     &NURBS,
+    &NURBS_PATCH,
     &OCTAHEDRON,
     &OFFSET,
     &OUTLINE,

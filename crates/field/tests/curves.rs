@@ -200,10 +200,123 @@ fn strokes_are_lines_along_their_paths() {
     }
 }
 
+/// The control points that count at `u`, by de Boor's recursion over pairs of them, in its textbook form.
+fn de_boor(degree: usize, knots: &[f64], points: &[DVec4], u: f64) -> DVec4 {
+    fn point(degree: usize, knots: &[f64], points: &[DVec4], u: f64, round: usize, index: usize) -> DVec4 {
+        if round == 0 {
+            return points[index];
+        }
+        let (low, high) = (knots[index], knots[index + degree + 1 - round]);
+        let share = (u - low) / (high - low);
+        point(degree, knots, points, u, round - 1, index - 1) * (1.0 - share)
+            + point(degree, knots, points, u, round - 1, index) * share
+    }
+    let last = points.len() - 1;
+    let piece = (degree..=last).rev().find(|&piece| knots[piece] <= u && knots[piece] < knots[piece + 1]);
+    point(degree, knots, points, u, degree, piece.expect("within the domain"))
+}
+
+#[test]
+fn uneven_knots_are_those_of_de_boor() {
+    const RADIUS: f64 = 0.2;
+    /// Arcs are within 2e-3 of the radius from their curve at the places where they are compared, and hardly more between these.
+    const TOLERANCE: f64 = 1.5 * 2e-3 * RADIUS;
+    let mut random = Random::new(53);
+    // Clamped, with a knot of several; not clamped; and with one as often as the degree, at a corner.
+    let cases: [(usize, &[f64], bool); 5] = [
+        (3, &[0.0, 0.0, 0.0, 0.0, 0.1, 0.7, 1.0, 1.0, 1.0, 1.0], false),
+        (2, &[-1.0, 0.0, 0.5, 0.6, 2.0, 2.5, 3.0, 5.0, 5.5], false),
+        (3, &[0.0, 0.0, 0.0, 0.0, 2.0, 2.0, 2.0, 3.0, 3.0, 3.0, 3.0], false),
+        (2, &[0.0, 0.3, 1.0, 1.1, 3.0, 3.0, 4.0], true),
+        (3, &[2.0, 2.3, 3.0, 3.1, 5.0, 6.0, 7.5], true),
+    ];
+    for (degree, knots, is_closed) in cases {
+        let count = if is_closed { knots.len() - 1 } else { knots.len() - degree - 1 };
+        let balls: Vec<DVec4> = (0..count).map(|_| random.point(1.0).extend(random.range(0.3, 2.0))).collect();
+        let weighted: Vec<DVec4> = balls.iter().map(|ball| (ball.truncate() * ball.w).extend(ball.w)).collect();
+        // Those of three rounds, of which the middle one is the domain.
+        let round = knots[knots.len() - 1] - knots[0];
+        let rounds = [-round, 0.0, round].map(|from| knots[..knots.len() - 1].iter().map(move |knot| knot + from));
+        let (all, domain): (Vec<f64>, [f64; 2]) = match is_closed {
+            true => (rounds.into_iter().flatten().skip(count - degree).collect(), [knots[0], knots[count]]),
+            false => (knots.to_vec(), [knots[degree], knots[count]]),
+        };
+        let around = |points: &[DVec4]| -> Vec<DVec4> {
+            points.iter().chain(points.iter().take(if is_closed { degree } else { 0 })).copied().collect()
+        };
+        let curve = |points: &[DVec4]| -> Vec<DVec4> {
+            let points = around(points);
+            let all = &all[..points.len() + degree + 1];
+            // Short of the end, which the piece before it holds.
+            steps()
+                .map(|share| domain[0] + (domain[1] - domain[0]) * share * (1.0 - 1e-12))
+                .map(|u| de_boor(degree, all, &points, u))
+                .collect()
+        };
+        let closed = |field: Field| field.with("closed", &[i32::from(is_closed).into()]);
+        let degree = degree as u32;
+        let plain =
+            b_spline(RADIUS, degree, balls.iter().map(|b| b.truncate().to_array())).knots(knots.iter().copied());
+        let rational = nurbs(RADIUS, degree, balls.iter().map(DVec4::to_array)).knots(knots.iter().copied());
+        let tapered =
+            tapered_b_spline(degree, balls.iter().map(|b| (*b / 4.0).to_array())).knots(knots.iter().copied());
+        let quarter: Vec<DVec4> = balls.iter().map(|ball| *ball / 4.0).collect();
+        let project = |points: Vec<DVec4>| points.into_iter().map(|p| p.truncate() / p.w).collect::<Vec<_>>();
+        let drop_weights = |points: Vec<DVec4>| points.into_iter().map(DVec4::truncate).collect::<Vec<_>>();
+        for (name, field, axis) in [
+            ("b_spline", closed(plain.into()), drop_weights(curve(&balls))),
+            ("nurbs", closed(rational.into()), project(curve(&weighted))),
+        ] {
+            let program = program(&field);
+            for point in axis.iter().step_by(7) {
+                let off = program.value(*point) + RADIUS;
+                assert!(off.abs() < TOLERANCE, "{name} {knots:?}: {off} at {point}");
+            }
+            for p in (0..100).map(|_| random.point(1.5)) {
+                let nearest = axis.iter().map(|point| point.distance(p)).fold(f64::INFINITY, f64::min) - RADIUS;
+                let found = program.value(p);
+                assert!((found - nearest).abs() < TOLERANCE, "{name} {knots:?} at {p}: {found}, not {nearest}");
+            }
+        }
+        let (axis, program) = (curve(&quarter), program(&closed(tapered.into())));
+        let widest = axis.iter().map(|ball| ball.w).fold(0.0, f64::max);
+        for p in (0..100).map(|_| random.point(0.5)) {
+            let nearest = axis.iter().map(|ball| ball.truncate().distance(p) - ball.w).fold(f64::INFINITY, f64::min);
+            let found = program.value(p);
+            assert!((found - nearest).abs() < 2e-3 * widest, "tapered {knots:?} at {p}: {found}, not {nearest}");
+        }
+    }
+}
+
+#[test]
+fn knots_that_are_written_out_are_those_that_have_names() {
+    let mut random = Random::new(59);
+    let points: Vec<[f64; 3]> = (0..7).map(|_| random.point(1.0).to_array()).collect();
+    let made = || b_spline(0.2, 3, points.iter().copied());
+    let pairs: [(Field, Field); 3] = [
+        (made().into(), made().knots([1, 1, 1, 1, 3, 5, 7, 9, 9, 9, 9]).into()),
+        (made().with("knots", &[1.into()]).into(), made().knots([0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2]).into()),
+        (
+            Field::from(made()).with("closed", &[1.into()]),
+            Field::from(made().knots([0, 2, 4, 6, 8, 10, 12, 14])).with("closed", &[1.into()]),
+        ),
+    ];
+    for (index, (named, listed)) in pairs.into_iter().enumerate() {
+        let (named, listed) = (program(&named), program(&listed));
+        for p in (0..200).map(|_| random.point(1.5)) {
+            assert!((named.value(p) - listed.value(p)).abs() < ROUNDING, "{index} at {p}");
+        }
+    }
+    // Knots may be changed again.
+    let changed = made().knots([0, 0, 0, 0, 1, 2, 8, 9, 9, 9, 9]).knots([1, 1, 1, 1, 3, 5, 7, 9, 9, 9, 9]).into();
+    assert!((program(&changed).value(DVec3::ONE) - program(&made().into()).value(DVec3::ONE)).abs() < ROUNDING);
+}
+
 #[test]
 fn what_is_no_curve_is_refused() {
     let balls = |radius: f64| [[0.0, 0.0, 0.0, radius], [1.0, 0.0, 0.0, radius]];
     let pieces = |field: Field| field.with("knots", &[1.into()]);
+    let line = || b_spline(0.1, 2, [[0, 0, 0], [1, 0, 0], [2, 1, 0], [3, 1, 1]]);
     for (field, message) in [
         (tapered_tube(balls(0.0)).into(), "`points` of `tapered_tube` must have a radius above 0"),
         (tapered_tube(balls(-0.5)).into(), "must have radii of 0 or more, but entry 1 has -0.5"),
@@ -214,6 +327,16 @@ fn what_is_no_curve_is_refused() {
         (tapered_b_spline(3, balls(1.0)).into(), "at least 4 points"),
         (nurbs(0.1, 1, balls(0.0)).into(), "must have weights above 0, but entry 1 has 0"),
         (pieces(nurbs(0.1, 2, balls(1.0)).into()), "a multiple of 2 points and one more"),
+        (line().knots([0, 1, 2]).into(), "`b_spline`: a spline of degree 2 with 4 points has 7 knots, not 3"),
+        (line().knots([0, 0, 0, 2, 1, 3, 3]).into(), "`knots` of `b_spline` must not fall, but entry 5 is 1 after 2"),
+        (line().knots([0, 0, 0, 0, 1, 1, 1]).into(), "`b_spline`: a spline of degree 2 has no knot more than 3 times"),
+        (line().knots([0, 1, 2, 2, 2, 3, 4]).into(), "nothing lies between"),
+        (line().with("knots", &[0.5.into()]).into(), "`knots` of `b_spline` must be a name or a list of numbers"),
+        (line().with("knots", &[9e99.into()]).into(), "`b_spline` needs `knots`"),
+        (line().with("closed", &[1.into()]).knots([0, 1, 2]).into(), "with 4 points has 5 knots, not 3"),
+        (line().with("closed", &[1.into()]).knots([0, 1, 1, 1, 4]).into(), "has no knot more than 2 times"),
+        (nurbs(0.1, 1, balls(1.0)).knots([0.0, 1.0]).into(), "`nurbs`: a spline of degree 1 with 2 points has 4 knots"),
+        (tapered_b_spline(1, balls(1.0)).knots([3, 2, 1, 0]).into(), "`knots` of `tapered_b_spline` must not fall"),
         (stroke(0.1, "M0 0 L1 x").into(), "`d` of `stroke` is no path data"),
         (stroke(0.1, "M0 0").into(), "`d` of `stroke` draws nothing"),
     ] {

@@ -564,6 +564,74 @@ fn spirals_are_as_far_as_the_nearest_of_their_points() {
     }
 }
 
+/// Compares a line of some width with the points of its curve.
+fn compare_line(name: &str, field: &Field, curve: &[DVec3], width: f64, random: &mut Random) {
+    let program = program(field);
+    let Extent::Finite(aabb) = extent(&field.clone().extrude(1.0)) else { panic!("a line is finite") };
+    let tolerance = 2e-3 * width;
+    for p in curve {
+        let reach = DVec3::new(width, width, 0.0) / 2.0 - tolerance;
+        assert!((*p - reach).cmpge(aabb.min).all() && (*p + reach).cmple(aabb.max).all(), "{name}: {p} in {aabb:?}");
+    }
+    for _ in 0..200 {
+        let p = random.point(1.5) * DVec3::new(1.0, 1.0, 0.0);
+        let (found, known) = (program.value(p), nearest(curve, p) - width / 2.0);
+        assert!((found - known).abs() < tolerance, "{name} at {p}: {found}, not {known}");
+    }
+}
+
+#[test]
+fn logarithmic_spirals_are_as_far_as_the_nearest_of_their_points() {
+    const STEPS: u32 = 40_000;
+    let mut random = Random::new(28);
+    // A nautilus, the golden spiral, one inwards, a circle, and one that is nearly straight.
+    for (width, inner, growth, turns) in [
+        (0.1, 0.05, 3.0, 2.8),
+        (0.05, 0.01, 6.854, 2.5),
+        (0.08, 1.2, 0.2, 3.0),
+        (0.2, 0.8, 1.0, 0.7),
+        (0.1, 1e-3, 1e4, 0.74),
+    ] {
+        let curve: Vec<DVec3> = (0..=STEPS)
+            .map(|step| turns * f64::from(step) / f64::from(STEPS))
+            .map(|turn| (inner * f64::powf(growth, turn), (std::f64::consts::TAU * turn).sin_cos()))
+            .map(|(radius, (sin, cos))| flat(radius * cos, radius * sin))
+            .collect();
+        let field = logarithmic_spiral(width, inner, growth, turns).into();
+        compare_line(&format!("{inner} times {growth}"), &field, &curve, width, &mut random);
+    }
+}
+
+#[test]
+fn clothoids_are_as_far_as_the_nearest_of_their_points() {
+    const STEPS: u32 = 40_000;
+    let mut random = Random::new(30);
+    for (width, length, turn, is_symmetric) in [
+        (0.1, 1.5, 90.0, false),
+        (0.06, 2.5, 700.0, true),
+        (0.05, 2.0, -1500.0, false),
+        (0.2, 1.0, 0.0, true),
+        (0.1, 0.8, -30.0, true),
+    ] {
+        // From middle to middle of short straight steps.
+        let step = length / f64::from(STEPS);
+        let mut half = vec![DVec3::ZERO];
+        for index in 0..STEPS {
+            let share = (f64::from(index) + 0.5) / f64::from(STEPS);
+            let (sin, cos) = (f64::to_radians(turn) * share * share).sin_cos();
+            half.push(half[half.len() - 1] + flat(cos, sin) * step);
+        }
+        let other: Vec<DVec3> = half.iter().map(|point| -*point).filter(|_| is_symmetric).collect();
+        let field = clothoid(width, length, turn).with("symmetric", &[i32::from(is_symmetric).into()]).into();
+        compare_line(&format!("{length} turned by {turn}"), &field, &[half, other].concat(), width, &mut random);
+    }
+    // The limit of Fresnel's integrals, which the last round surrounds.
+    let end = program(&clothoid(0.01, 100.0, 17_999.0).into());
+    let rate = f64::to_radians(17_999.0) / 1e4;
+    let eye = (std::f64::consts::PI / 8.0 / rate).sqrt();
+    assert!((end.value(flat(eye, eye)) - (1.0 / (2.0 * rate * 100.0) - 0.005)).abs() < 1e-3);
+}
+
 #[test]
 fn sheets_are_the_thinnest_of_bodies() {
     // As thin as bodies get without being nothing.
@@ -712,6 +780,11 @@ fn what_can_be_no_figure_is_refused() {
         (gear(6, 33.0).into(), "end in points below their full height"),
         (gear(300, 34.0).into(), "fill the gaps"),
         (spiral(0.1, 0.2, 101.0).into(), "`turns` of `spiral` must not exceed 100"),
+        (logarithmic_spiral(0.1, 0.2, 1.1, 101.0).into(), "`turns` of `logarithmic_spiral` must not exceed 100"),
+        (logarithmic_spiral(1.0, 1e-3, 10.0, 6.1).into(), "comes to more than a factor of 1000000"),
+        (logarithmic_spiral(1.0, 1e-3, 0.1, 6.1).into(), "comes to more than a factor of 1000000"),
+        (logarithmic_spiral(1e-3, 1.0, 10.0, 2.1).into(), "farther from the origin than 100000 times its `width`"),
+        (clothoid(0.1, 0.2, -18_001.0).into(), "`turn` of `clothoid` must not exceed 18000 degrees"),
         (triangle([0.0; 3], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]).into(), "the corners of `triangle` lie on a line"),
         (quad([0.0; 3], [1.0, 0.0, 1.0], [0.0; 3]).into(), "the edges `u` and `v` of `quad` lie on a line"),
         (sphere(1.0) - Field::from(disc(0.5)), "a sheet has no inside"),

@@ -173,6 +173,39 @@ fn shapes() {
 }
 
 /// No snapshot, since every new shape is listed there.
+/// What is said about knots and nets, and where.
+#[test]
+fn knots_and_nets() {
+    let spline = |knots: &str| {
+        format!(
+            r#"{{ "b_spline": {{ "radius": 1, "degree": 1, "knots": {knots}, "points": [[0, 0, 0], [1, 0, 0]] }} }}"#
+        )
+    };
+    let patch = |rows: &str| format!(r#"{{ "bezier_patch": {{ "radius": 1, "points": {rows} }} }}"#);
+    for (shape, message, place) in [
+        (spline("[0, 0, 1]"), "`b_spline`: a spline of degree 1 with 2 points has 4 knots, not 3", r#""b_spline""#),
+        (spline("[0, 0, 0, 1]"), "`b_spline`: a spline of degree 1 has no knot more than 2 times", r#""b_spline""#),
+        (spline("[0, 2, 1, 3]"), "`knots` must not fall, but entry 3 is 1 after 2", "[0, 2, 1, 3]"),
+        (spline("\"odd\""), "`knots` can't be `odd`", r#""odd""#),
+        (spline("[0, \"1\", 2, 3]"), "entry 2 of `knots`", r#""1""#),
+        (
+            patch("[[[0, 0, 0], [1, 0, 0]], [[0, 1, 0]]]"),
+            "row 2 has 1, and the first one 2",
+            "[[[0, 0, 0], [1, 0, 0]], [[0, 1, 0]]]",
+        ),
+        (patch("[[[0, 0, 0], [1, 0, 0]], [[0, 1], [1, 1, 0]]]"), "entry 1 of row 2 of `points`", "[0, 1]"),
+        (patch("[[[0, 0, 0], [1, 0, 0]], 3]"), "row 2 of `points`", "3"),
+    ] {
+        let text = with_shape(&shape);
+        let mut report = shown(&text);
+        println!("{report}");
+        assert!(report.contains(message), "{message}: {report}");
+        // The place is underlined by as many marks as it is long, at least.
+        report.retain(|c| c == '^');
+        assert_eq!(report.len(), place.len(), "{place}");
+    }
+}
+
 #[test]
 fn unknown_shapes_are_answered_with_the_known_ones() {
     let diagnostics = read(&with_shape(r#"{ "teapot": {} }"#)).diagnostics;

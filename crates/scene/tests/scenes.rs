@@ -1,7 +1,7 @@
 //! What scenes mean: read from files, and built in code.
 
 use freikugel_field::shapes::*;
-use freikugel_field::{Aabb, Extent, MaterialId, Origin, analyse};
+use freikugel_field::{Aabb, Extent, Field, MaterialId, Origin, analyse};
 use freikugel_scene::*;
 use glam::DVec3;
 
@@ -115,6 +115,44 @@ fn files_and_code_agree() {
 }
 
 /// The places of a scene's mistakes, as lines relative to `start`, with their messages.
+/// Knots and nets in files are those from code.
+#[test]
+fn curved_shapes_in_files_and_code_agree() {
+    let curve = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1]];
+    let net = [[[0, 0, 0, 1], [0, 1, 0, 2], [0, 2, 0, 1]], [[1, 0, 0, 1], [1, 1, 1, 3], [1, 2, 0, 1]]];
+    let plain = net.map(|row| row.map(|[x, y, z, _]| [x, y, z]));
+    let cases: [(&str, Field); 5] = [
+        (
+            r#"{ "b_spline": { "radius": 0.1, "degree": 2, "knots": [0, 0, 0, 0.25, 1, 1, 1],
+                "points": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1]] } }"#,
+            b_spline(0.1, 2, curve).knots([0.0, 0.0, 0.0, 0.25, 1.0, 1.0, 1.0]).into(),
+        ),
+        (
+            r#"{ "b_spline": { "radius": 0.1, "points": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1]], "knots": "pieces" } }"#,
+            b_spline(0.1, 3, curve).with("knots", &[1.into()]).into(),
+        ),
+        (
+            r#"{ "bezier_patch": { "radius": 0.1, "points": [[[0, 0, 0], [0, 1, 0], [0, 2, 0]], [[1, 0, 0], [1, 1, 1], [1, 2, 0]]] } }"#,
+            bezier_patch(0.1, plain).into(),
+        ),
+        (
+            r#"{ "b_spline_patch": { "radius": 0.1, "degree_u": 1, "degree_v": 2, "closed_v": true, "tolerance": 0.2,
+                "points": [[[0, 0, 0], [0, 1, 0], [0, 2, 0]], [[1, 0, 0], [1, 1, 1], [1, 2, 0]]] } }"#,
+            b_spline_patch(0.1, [1, 2], plain).with("closed_v", &[1.into()]).with("tolerance", &[0.2.into()]).into(),
+        ),
+        (
+            r#"{ "nurbs_patch": { "radius": 0.1, "degree_u": 1, "degree_v": 1, "knots_u": [0, 0, 3, 3], "knots_v": [0, 0, 1, 4, 4],
+                "points": [[[0, 0, 0, 1], [0, 1, 0, 2], [0, 2, 0, 1]], [[1, 0, 0, 1], [1, 1, 1, 3], [1, 2, 0, 1]]] } }"#,
+            nurbs_patch(0.1, [1, 1], net).knots_u([0, 0, 3, 3]).knots_v([0, 0, 1, 4, 4]).into(),
+        ),
+    ];
+    for (text, built) in cases {
+        let scene = sound(&format!(r#"{{ "objects": [ {{ "shape": {text} }} ] }}"#));
+        assert_eq!(scene.objects[0].shape.node().numbers(), built.node().numbers(), "{text}");
+        assert_eq!(scene.check(), [], "{text}");
+    }
+}
+
 fn mistakes(found: &[freikugel_field::Diagnostic], start: u32) -> Vec<(u32, &str)> {
     let place = |origin| match origin {
         Origin::Code(location) => location.line() - start,

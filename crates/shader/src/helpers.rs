@@ -517,7 +517,9 @@ fn constant_names(shape: &Shape, count: usize) -> Vec<String> {
     };
     let mut sample = Vec::new();
     let mut labels = Vec::new();
-    for param in shape.about.params {
+    // The constants of lists follow from no single number.
+    let is_list = shape.about.params.iter().any(|param| param.kind.is_list());
+    for param in if is_list { &[] } else { shape.about.params } {
         let width = param.kind.width();
         for place in 0..width {
             // Numbers that no computation yields by accident.
@@ -530,7 +532,6 @@ fn constant_names(shape: &Shape, count: usize) -> Vec<String> {
             labels.push(format!("{}{letter}", param.name));
         }
     }
-    let is_list = shape.about.params.iter().any(|param| param.kind.is_list());
     let constants = if is_list || shape.about.params.is_empty() { Vec::new() } else { prepare(&sample) };
     let mut names = Names::new();
     ["p", "a", "b", "height", "first"].into_iter().for_each(|name| names.take(name));

@@ -20,10 +20,14 @@ fn changed(field: &Field, factor: f64) -> Field {
     let node = field.node();
     let mut args = node.numbers();
     for (index, param) in node.shape.about.params.iter().enumerate() {
-        let range = node.shape.range(index, args.len());
+        let range = node.shape.range(index, &node.args);
         match param.kind {
             // These shape the steps.
-            ParamKind::Count(..) | ParamKind::Counts(..) | ParamKind::Choice(_) | ParamKind::Flag => {}
+            ParamKind::Count(..)
+            | ParamKind::Counts(..)
+            | ParamKind::Choice(_)
+            | ParamKind::Flag
+            | ParamKind::Knots => {}
             ParamKind::Region => args[range.start + 1..range.end].iter_mut().for_each(|arg| *arg *= factor),
             _ => args[range].iter_mut().for_each(|arg| *arg *= factor),
         }

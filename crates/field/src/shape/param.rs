@@ -1,6 +1,6 @@
 //! What a user reads about a function, and its parameters.
 
-use crate::field::Field;
+use crate::field::{Field, Value};
 use crate::vector::spectral_norm;
 use glam::{DMat3, DVec3};
 
@@ -11,7 +11,7 @@ pub struct About {
     pub name: &'static str,
     /// One sentence: what it is.
     pub summary: &'static str,
-    /// The parameters, in the order of the library's constructor. Only the last one may be a list.
+    /// The parameters, in the order of the library's constructor. Only the last one may be a list; knots may stand before it.
     pub params: &'static [Param],
     /// Names of the same thing in other systems.
     pub elsewhere: &'static [&'static str],
@@ -32,7 +32,7 @@ pub struct Param {
     pub about: &'static str,
 }
 
-/// What values a parameter takes. Each kind is stored as a fixed number of `f64`, except the list.
+/// What values a parameter takes. Each kind is stored as a fixed number of `f64`, except lists and knots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ParamKind {
     /// Any finite number.
@@ -88,6 +88,14 @@ pub enum ParamKind {
     /// One or several closed lines of the plane: lists of corners x, y and the angle by which the edge to the next corner turns
     /// to the left, 0 for a straight one; stored with a fourth number, 1 for the last corner of a line and otherwise 0.
     Contours,
+    /// Where the pieces of a spline meet: one of [`ParamKind::KNOTS`], or a list of numbers that don't fall. Stored as the index of
+    /// the name; or as the number of names and that of the list's entries together, and then these.
+    Knots,
+    /// A net of points: two rows or more, with two points or more in each, and equally many; stored row by row with a fourth
+    /// number, 1 for the last point of a row and otherwise 0.
+    Net,
+    /// A net of points with a weight above 0 each, which stands before the number that tells the last point of a row.
+    WeightedNet,
     /// A text: a list of the numbers of its characters.
     Text,
     /// A list of half-spaces, each with an outward normal and the distance of its plane from the origin: x, y, z, d.
@@ -107,7 +115,11 @@ pub struct FileParam {
 }
 
 impl ParamKind {
-    /// How many numbers hold one value (one entry, for a list).
+    /// The names that can stand in place of a list of knots: those at equal distances, and those that make each piece a Bézier
+    /// curve of its own.
+    pub const KNOTS: &'static [&'static str] = &["even", "pieces"];
+
+    /// How many numbers hold one value (one entry, for a list; at least, for knots).
     pub const fn width(self) -> usize {
         match self {
             Self::Number
@@ -118,6 +130,7 @@ impl ParamKind {
             | Self::Angle
             | Self::Choice(_)
             | Self::Text
+            | Self::Knots
             | Self::Flag => 1,
             Self::Size2 | Self::Points2 => 2,
             Self::Vector
@@ -134,7 +147,9 @@ impl ParamKind {
             | Self::HalfSpaces
             | Self::Contours
             | Self::Balls
+            | Self::Net
             | Self::Weighted => 4,
+            Self::WeightedNet => 5,
             Self::Matrix => 9,
         }
     }
@@ -149,8 +164,19 @@ impl ParamKind {
                 | Self::Balls
                 | Self::Weighted
                 | Self::Contours
+                | Self::Net
+                | Self::WeightedNet
                 | Self::Text
         )
+    }
+
+    /// How many numbers hold the value that these begin with: for a list all of them.
+    pub fn length(self, numbers: &[Value]) -> usize {
+        match (self, numbers.first()) {
+            (Self::Knots, Some(first)) => (first.number() as usize).saturating_sub(Self::KNOTS.len()).saturating_add(1),
+            _ if self.is_list() => numbers.len(),
+            _ => self.width(),
+        }
     }
 
     /// Why `value` is not one of this kind, or `None` if it is. The numbers are as stored: angles in radians.
@@ -204,6 +230,24 @@ impl ParamKind {
             Self::Weighted => value.chunks(4).position(|point| point[3] <= 0.0).map(|index| {
                 format!("must have weights above 0, but entry {} has {}", index + 1, brief(value[4 * index + 3]))
             }),
+            Self::Knots if value[0] < 0.0 || value[0].fract() != 0.0 => {
+                Some("must be a name or a list of numbers".into())
+            }
+            Self::Knots => value[1..].windows(2).position(|pair| pair[1] < pair[0]).map(|index| {
+                let (entry, low, high) = (index + 2, brief(value[index + 2]), brief(value[index + 1]));
+                format!("must not fall, but entry {entry} is {low} after {high}")
+            }),
+            Self::Net => uneven(value, self.width()),
+            Self::WeightedNet => {
+                let weight = |point: &[f64]| point[3];
+                let is_sound = |point: &[f64]| weight(point) > 0.0;
+                match value.chunks(self.width()).enumerate().find(|(_, point)| !is_sound(point)) {
+                    Some((index, point)) => {
+                        Some(format!("must have weights above 0, but point {} has {}", index + 1, brief(weight(point))))
+                    }
+                    None => uneven(value, self.width()),
+                }
+            }
             Self::Contours => value.chunks(4).enumerate().find_map(|(i, corner)| {
                 (corner[2].abs() >= std::f64::consts::TAU).then(|| {
                     format!("must have edges that turn by less than 360 degrees, but corner {} has not", i + 1)
@@ -211,6 +255,24 @@ impl ParamKind {
             }),
             _ => None,
         }
+    }
+}
+
+/// What is wrong with the rows of a net, whose points take so many numbers.
+fn uneven(net: &[f64], width: usize) -> Option<String> {
+    let points: Vec<&[f64]> = net.chunks(width).collect();
+    let rows: Vec<usize> = points.split_inclusive(|point| point[width - 1] != 0.0).map(<[_]>::len).collect();
+    let columns = rows[0];
+    match rows.iter().position(|row| *row != columns) {
+        Some(index) => Some(format!(
+            "must have as many points in each row, but row {} has {}, and the first one {columns}",
+            index + 1,
+            rows[index]
+        )),
+        None if rows.len() < 2 || columns < 2 => {
+            Some("must have two rows or more, with two points or more in each".into())
+        }
+        None => None,
     }
 }
 

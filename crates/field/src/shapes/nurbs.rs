@@ -1,6 +1,6 @@
 //! Tube along a rational B-spline, whose pieces become arcs within a tolerance; the distance from these is exact outside.
 
-use super::b_spline::with_even_knots;
+use super::b_spline::{KNOTS, Knots};
 use super::tube::{TOLERANCE, Wire, along};
 use crate::arcs3::{Rational, of_curve};
 use crate::curve::Bezier;
@@ -16,7 +16,8 @@ pub struct Nurbs;
 pub static NURBS: Shape = Shape::special::<Nurbs>();
 
 /// A tube along the rational B-spline of a degree with these control points x, y, z and weights above 0, and evenly spaced knots,
-/// from the first to the last. `with("closed", ...)` closes it; `with("knots", ...)` makes it a chain of rational Bézier curves.
+/// from the first to the last. `with("closed", ...)` closes it; `with("knots", &[1.into()])` makes it a chain of rational Bézier
+/// curves; [`Form::knots`] gives it other knots.
 #[track_caller]
 pub fn nurbs<V: Into<Value>>(
     radius: impl Into<Value>,
@@ -25,6 +26,15 @@ pub fn nurbs<V: Into<Value>>(
 ) -> Form<Nurbs> {
     let points = points.into_iter().flat_map(|point| point.map(Into::into));
     Form::new(&NURBS, [radius.into(), degree.into(), 0.into(), 0.into()].into_iter().chain(points))
+}
+
+impl Form<Nurbs> {
+    /// Gives it knots that never fall: as many as there are points, the degree and 1 together, none of them more than the degree
+    /// and 1 times. If it is closed, those of one round: one more than there are points.
+    #[must_use]
+    pub fn knots<V: Into<Value>>(self, knots: impl IntoIterator<Item = V>) -> Self {
+        self.with_knots("knots", knots)
+    }
 }
 
 impl Special for Nurbs {
@@ -37,14 +47,7 @@ impl Special for Nurbs {
             Param::required("radius", ParamKind::Positive, "Radius of the tube."),
             Param::optional("degree", ParamKind::Count(1, 9), &[3.0], "The degree; there are more points than that."),
             Param::optional("closed", ParamKind::Flag, &[0.0], "Whether the curve goes around and closes."),
-            Param::optional(
-                "knots",
-                ParamKind::Choice(&["even", "pieces"]),
-                &[0.0],
-                "Where its pieces meet: `even` makes it as smooth as the degree allows; `pieces` is a chain of rational Bézier \
-                 curves, which begins at the first point and passes each time through the one that is as many further as the \
-                 degree.",
-            ),
+            KNOTS,
             Param::required(
                 "points",
                 ParamKind::Weighted,
@@ -59,7 +62,7 @@ impl Special for Nurbs {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let points: Vec<&[f64]> = args[4..].chunks_exact(4).map(|point| &point[..3]).collect();
+        let points: Vec<&[f64]> = Knots::split(&args[3..]).1.chunks_exact(4).map(|point| &point[..3]).collect();
         if points.iter().all(|point| *point == points[0]) {
             return Err("all points of `nurbs` are in the same place".into());
         }
@@ -76,22 +79,12 @@ impl Special for Nurbs {
 
 /// The curve as rational Bézier curves.
 fn pieces(args: &[f64]) -> Result<Vec<Bezier<DVec4>>, String> {
-    let &[_, degree, closed, in_pieces, ref list @ ..] = args else { unreachable!("four numbers and points") };
-    let weighted = list.chunks_exact(4).map(|point| {
-        let point = DVec4::from_slice(point);
-        (point.truncate() * point.w).extend(point.w)
-    });
-    let mut points: Vec<DVec4> = weighted.collect();
-    if in_pieces == 0.0 {
-        return with_even_knots(degree, closed, points).map(|spline| spline.beziers());
-    }
-    if closed != 0.0 {
-        points.push(points[0]);
-    }
-    let (step, count) = (degree as usize, points.len() - 1);
-    if count == 0 || count % step != 0 {
-        let more = if closed == 0.0 { " and one more" } else { "" };
-        return Err(format!("a chain of pieces of degree {step} has a multiple of {step} points{more}"));
-    }
-    Ok((0..count).step_by(step).map(|first| Bezier::new(points[first..=first + step].to_vec())).collect())
+    let (knots, points) = Knots::split(&args[3..]);
+    let points = points.chunks_exact(4).map(weighted).collect();
+    knots.spline(args[1], args[2] != 0.0, points).map(|spline| spline.beziers())
+}
+
+/// The point `(w x, w y, w z, w)` that the numbers x, y, z and w stand for.
+pub(crate) fn weighted(point: &[f64]) -> DVec4 {
+    (DVec3::from_slice(point) * point[3]).extend(point[3])
 }

@@ -2,7 +2,7 @@
 //! exact outside.
 
 use super::polyline::Stroke;
-use crate::arcs::Lines;
+use crate::arcs::{Curve, Lines};
 use crate::arcs3::Arc3;
 use crate::remember::remembered;
 use crate::shape_prelude::*;
@@ -27,7 +27,7 @@ pub fn spiral(width: impl Into<Value>, spacing: impl Into<Value>, turns: impl In
 const TOLERANCE: f64 = 1e-3;
 
 /// Each turn takes some eight arcs, all of which are asked for their distance.
-const MOST_TURNS: f64 = 100.0;
+pub(crate) const MOST_TURNS: f64 = 100.0;
 
 impl Special for Spiral {
     type General = Stroke;
@@ -54,7 +54,7 @@ impl Special for Spiral {
                 "Distance from the origin at which it begins, on the x axis.",
             ),
         ],
-        elsewhere: &["Archimedean spiral", "sdSpiral"],
+        elsewhere: &["Archimedean spiral", "sdSpiral", "arithmetic spiral"],
         example: r#"{ "extrude": { "height": 0.4, "shape": { "spiral": { "width": 0.14, "spacing": 0.26, "turns": 3.5 } } } }"#,
     };
 
@@ -70,19 +70,28 @@ impl Special for Spiral {
                 let (out, radius) = (DVec2::from_angle(angle), inner + growth * angle);
                 (out * radius, out * growth + out.perp() * radius)
             };
-            let end = TAU * turns;
-            let mut lines = Lines::new(width * TOLERANCE);
-            lines.move_to(at(0.0).0);
-            let quarters = (end / FRAC_PI_2).ceil() as u32;
-            for quarter in 0..quarters {
-                let angle = |quarter: u32| (f64::from(quarter) * FRAC_PI_2).min(end);
-                lines.follow(&at, [angle(quarter), angle(quarter + 1)]);
-            }
-            let (corners, end) = lines.open();
-            let place = |corner: &[f64; 3]| DVec2::new(corner[0], corner[1]);
-            let ends = corners[1..].iter().map(place).chain([end]);
-            let arcs = corners.iter().zip(ends).map(|(corner, to)| Arc3::flat(place(corner), to, corner[2]));
-            super::tube::along(width / 2.0, arcs)
+            line(width, &at, &quarters(TAU * turns))
         })
     }
+}
+
+/// Angles from 0 to `end` in quarters of a turn, of which the last one may be shorter.
+pub(crate) fn quarters(end: f64) -> Vec<f64> {
+    let count = (end / FRAC_PI_2).ceil() as u32;
+    (0..=count).map(|quarter| (f64::from(quarter) * FRAC_PI_2).min(end)).collect()
+}
+
+/// The arguments of a line of some width along a curve, from each of these parameters to the next one: two at least, between which
+/// it turns by a quarter at most.
+pub(crate) fn line(width: f64, curve: Curve<'_>, parameters: &[f64]) -> Vec<f64> {
+    let mut lines = Lines::new(width * TOLERANCE);
+    lines.move_to(curve(parameters[0]).0);
+    for piece in parameters.windows(2) {
+        lines.follow(curve, [piece[0], piece[1]]);
+    }
+    let (corners, end) = lines.open();
+    let place = |corner: &[f64; 3]| DVec2::new(corner[0], corner[1]);
+    let ends = corners[1..].iter().map(place).chain([end]);
+    let arcs = corners.iter().zip(ends).map(|(corner, to)| Arc3::flat(place(corner), to, corner[2]));
+    super::tube::along(width / 2.0, arcs)
 }

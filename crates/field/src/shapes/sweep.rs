@@ -7,7 +7,7 @@
 //! Where one goes over into the next, neither has an end: the body is the union of all pieces without ends, cut off by the
 //! distance from the figure as it stands at the ends of the curve and at corners.
 
-use super::b_spline::with_even_knots;
+use super::b_spline::Knots;
 use super::plane::PLANE;
 use super::product;
 use super::spline;
@@ -238,7 +238,7 @@ fn arcs(args: &[f64]) -> Vec<Arc3> {
     let is_closed = args[1] != 0.0;
     let pieces: Vec<Bezier<DVec3>> = match args[0] {
         SPLINE => spline::pieces(&points, is_closed),
-        B_SPLINE => with_even_knots(DEGREE as f64, args[1], points).expect("there are enough points").beziers(),
+        B_SPLINE => Knots::Even.spline(DEGREE as f64, is_closed, points).expect("there are enough points").beziers(),
         _ => vec![Bezier::new(points)],
     };
     pieces.iter().flat_map(|piece| of_curve(piece, tolerance)).collect()

@@ -1,11 +1,13 @@
 //! Tube along a B-spline, whose radius changes as the curve does. It becomes arcs within a tolerance, along which the radius
 //! changes evenly; the distance from these is exact outside.
 
-use super::b_spline::with_even_knots;
+use super::b_spline::{KNOTS, Knots};
 use super::tapered_tube::{TaperedWire, balls};
+use crate::curve::BSpline;
 use crate::remember::remembered;
 use crate::shape_prelude::*;
 use crate::tapers::{of_curves, rows};
+use glam::DVec4;
 
 /// See [`tapered_b_spline`].
 #[derive(Clone, Copy, Debug)]
@@ -15,11 +17,20 @@ pub struct TaperedBSpline;
 pub static TAPERED_B_SPLINE: Shape = Shape::special::<TaperedBSpline>();
 
 /// A tube along the B-spline of a degree with these control points x, y, z, radius and evenly spaced knots, from the first to the
-/// last. `with("closed", ...)` closes it.
+/// last. `with("closed", ...)` closes it; [`Form::knots`] gives it other knots.
 #[track_caller]
 pub fn tapered_b_spline<V: Into<Value>>(degree: u32, points: impl IntoIterator<Item = [V; 4]>) -> Form<TaperedBSpline> {
     let points = points.into_iter().flat_map(|point| point.map(Into::into));
-    Form::new(&TAPERED_B_SPLINE, [degree.into(), 0.into()].into_iter().chain(points))
+    Form::new(&TAPERED_B_SPLINE, [degree.into(), 0.into(), 0.into()].into_iter().chain(points))
+}
+
+impl Form<TaperedBSpline> {
+    /// Gives it knots that never fall: as many as there are points, the degree and 1 together, none of them more than the degree
+    /// and 1 times. If it is closed, those of one round: one more than there are points.
+    #[must_use]
+    pub fn knots<V: Into<Value>>(self, knots: impl IntoIterator<Item = V>) -> Self {
+        self.with_knots("knots", knots)
+    }
 }
 
 impl Special for TaperedBSpline {
@@ -31,6 +42,7 @@ impl Special for TaperedBSpline {
         params: &[
             Param::optional("degree", ParamKind::Count(1, 9), &[3.0], "The degree; there are more points than that."),
             Param::optional("closed", ParamKind::Flag, &[0.0], "Whether the curve goes around and closes."),
+            KNOTS,
             Param::required(
                 "points",
                 ParamKind::Balls,
@@ -43,17 +55,22 @@ impl Special for TaperedBSpline {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        let points = balls(&args[2..]);
+        let points = balls(Knots::split(&args[2..]).1);
         if points.iter().all(|point| point.truncate() == points[0].truncate()) {
             return Err("all points of `tapered_b_spline` are in the same place".into());
         }
-        with_even_knots(args[0], args[1], points).map(|_| ()).map_err(|fault| format!("`tapered_b_spline`: {fault}"))
+        spline(args).map(|_| ()).map_err(|fault| format!("`tapered_b_spline`: {fault}"))
     }
 
     fn general(args: &[f64]) -> Vec<f64> {
         remembered("tapered_b_spline", args, || {
-            let pieces = with_even_knots(args[0], args[1], balls(&args[2..])).map(|spline| spline.beziers());
+            let pieces = spline(args).map(|spline| spline.beziers());
             rows(&of_curves(&pieces.unwrap_or_default()))
         })
     }
+}
+
+fn spline(args: &[f64]) -> Result<BSpline<DVec4>, String> {
+    let (knots, points) = Knots::split(&args[2..]);
+    knots.spline(args[0], args[1] != 0.0, balls(points))
 }

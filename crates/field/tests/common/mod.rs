@@ -89,6 +89,23 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
                 push(random.range(0.3, 3.0));
             }
         }
+        // Lists of them depend on how many points there are.
+        ParamKind::Knots => push(random.below(ParamKind::KNOTS.len()) as f64),
+        ParamKind::Net | ParamKind::WeightedNet => {
+            // A sheet with bumps, in steps of this length along each side.
+            const STEP: f64 = 0.7;
+            let (rows, columns) = (2 + random.below(3), 2 + random.below(3));
+            for place in 0..rows * columns {
+                let (row, column) = (place / columns, place % columns);
+                push(STEP * (row as f64 - (rows - 1) as f64 / 2.0) + random.range(-0.3, 0.3));
+                push(STEP * (column as f64 - (columns - 1) as f64 / 2.0) + random.range(-0.3, 0.3));
+                push(random.range(-0.8, 0.8));
+                if kind == ParamKind::WeightedNet {
+                    push(random.range(0.3, 3.0));
+                }
+                push(f64::from(u8::from(column + 1 == columns)));
+            }
+        }
         ParamKind::Contours => {
             // A round-edged star, in which smaller ones may be holes, or overlap.
             for reach in if random.below(2) == 0 { &[1.2][..] } else { &[1.2, 0.5][..] } {
@@ -193,6 +210,9 @@ fn random_arguments(shape: &Shape, random: &mut Random) -> Vec<Value> {
         if ["order", "exponent"].contains(&param.name) && param.kind == ParamKind::Positive {
             // Of a polynomial, which is any number above 1, or of a superellipse.
             args.push(random.range(1.2, 4.0).into());
+        } else if param.name == "tolerance" {
+            // Few triangles are triangles, too.
+            args.push(random.range(0.1, 0.4).into());
         } else if param.kind == ParamKind::Text {
             let known = match param.name {
                 "d" => &PATHS[..],

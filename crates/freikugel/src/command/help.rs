@@ -167,12 +167,16 @@ fn values(param: &Param) -> (String, String) {
         ParamKind::Weighted => {
             "a list of [x, y, z, weight], weights above 0, or { \"file\": NAME } with a row of numbers for each".into()
         }
+        ParamKind::Knots => format!("{}, or a list of numbers", ParamKind::KNOTS.join(", ")),
+        ParamKind::Net => "a list of rows, each of them a list of [x, y, z]".into(),
+        ParamKind::WeightedNet => "a list of rows, each of them a list of [x, y, z, weight], weights above 0".into(),
         ParamKind::Contours => "a list of [x, y] or [x, y, angle], or a list of such lists".into(),
         ParamKind::HalfSpaces => "a list of [x, y, z, d], or { \"file\": NAME } with a row of numbers for each".into(),
     };
     let default = match (param.default, param.kind) {
         (None, _) => "required".to_owned(),
         (Some(numbers), ParamKind::Choice(names)) => format!("{} if left out", names[numbers[0] as usize]),
+        (Some(_), ParamKind::Knots) => format!("{} if left out", ParamKind::KNOTS[0]),
         (Some(_), ParamKind::Region) => "everywhere if left out".to_owned(),
         // Without the noise of the conversion.
         (Some(angle), ParamKind::Angle) => format!("{} if left out", (angle[0].to_degrees() * 1e9).round() / 1e9),

@@ -123,7 +123,14 @@ fn written(kind: ParamKind, numbers: &[f64]) -> String {
         ParamKind::Angle | ParamKind::Angles => format!("{}", (number.to_degrees() * 1e9).round() / 1e9),
         _ => number.to_string(),
     };
-    numbers.iter().map(one).collect::<Vec<String>>().join(",")
+    let rest = match (kind, numbers) {
+        (ParamKind::Knots, [name]) => {
+            return ParamKind::KNOTS.get(*name as usize).copied().unwrap_or_default().to_owned();
+        }
+        (ParamKind::Knots, [_, knots @ ..]) => knots,
+        _ => numbers,
+    };
+    rest.iter().map(one).collect::<Vec<String>>().join(",")
 }
 
 /// A count with its noun.

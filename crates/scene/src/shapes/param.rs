@@ -61,6 +61,11 @@ impl Notation<Vec<f64>> for ParamKind {
             (Self::Region, _) => region(reader, value)?,
             (Self::HalfSpaces, _) => entries(reader, value, "half-spaces, [x, y, z, d]", ["x", "y", "z", "d"])?,
             (Self::Contours, _) => contours(reader, value)?,
+            (Self::Knots, _) => knots(reader, value)?,
+            (Self::Net, _) => net(reader, value, "points, [x, y, z]", ["x", "y", "z"])?,
+            (Self::WeightedNet, _) => {
+                net(reader, value, "points with a weight, [x, y, z, weight]", ["x", "y", "z", "weight"])?
+            }
             (Self::Text, Written::StringLit(text)) => characters(&text.value),
             (Self::Text, _) => {
                 reader.mistyped(value, "a text", None);
@@ -113,6 +118,14 @@ impl Notation<Vec<f64>> for ParamKind {
                     1 => lines.into_iter().next()?,
                     _ => Json::Array(lines),
                 }
+            }
+            Self::Knots if value.len() == 1 => json!(Self::KNOTS.get(first as usize)?),
+            Self::Knots => list(&value[1..]),
+            Self::Net | Self::WeightedNet => {
+                let last = self.width() - 1;
+                let points: Vec<&[f64]> = value.chunks(self.width()).collect();
+                let rows = points.split_inclusive(|point| point[last] != 0.0);
+                rows.map(|row| row.iter().map(|point| list(&point[..last])).collect::<Json>()).collect()
             }
             Self::Vector
             | Self::Direction
@@ -170,6 +183,14 @@ impl Notation<Vec<f64>> for ParamKind {
             Self::HalfSpaces | Self::Balls | Self::Weighted | Self::Points3 | Self::Points2 => {
                 let list = json!({ "type": "array", "items": numbers_schema(self.width()), "minItems": 1 });
                 json!({ "anyOf": [list, FileNotation.schema(definitions)] })
+            }
+            Self::Knots => {
+                let list = json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 });
+                json!({ "anyOf": [{ "enum": Self::KNOTS }, list] })
+            }
+            Self::Net | Self::WeightedNet => {
+                let row = json!({ "type": "array", "items": numbers_schema(self.width() - 1), "minItems": 2 });
+                json!({ "type": "array", "items": row, "minItems": 2 })
             }
             Self::Text => json!({ "anyOf": [{ "type": "string", "minLength": 1 }, FileNotation.schema(definitions)] }),
             Self::Contours => {
@@ -316,6 +337,58 @@ fn contour(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
     is_sound.then_some(corners)
 }
 
+/// Knots: one of their names, or a list of numbers, as a node holds them.
+fn knots(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
+    let names = ParamKind::KNOTS;
+    match value {
+        Written::StringLit(name) => Some(vec![index_of(reader, value, &name.value, names.iter().copied())? as f64]),
+        Written::Array(array) => {
+            let outer = reader.label().to_string();
+            let entry = |(number, element): (usize, &Written<'_>)| {
+                reader.labelled(format!("entry {number} of {outer}"), |reader| reader.number(element))
+            };
+            // All of them are looked at.
+            let knots: Vec<Option<f64>> = (1..).zip(&array.elements).map(entry).collect();
+            let first = (names.len() + knots.len()) as f64;
+            [Some(first)].into_iter().chain(knots).collect()
+        }
+        _ => {
+            reader.mistyped(value, &format!("{} or a list of numbers", listed(names.iter().copied())), None);
+            None
+        }
+    }
+}
+
+/// A net: a list of rows, which are lists of points.
+fn net<const N: usize>(
+    reader: &mut Reader,
+    value: &Written<'_>,
+    what: &str,
+    names: [&'static str; N],
+) -> Option<Vec<f64>> {
+    let Written::Array(array) = value else {
+        reader.mistyped(value, &format!("a list of rows, which are lists of {what} each"), None);
+        return None;
+    };
+    let outer = reader.label().to_string();
+    let rows: Vec<Option<Vec<f64>>> = (1..)
+        .zip(&array.elements)
+        .map(|(number, row)| {
+            reader.labelled(format!("row {number} of {outer}"), |reader| {
+                let points = entries(reader, row, what, names)?;
+                if points.is_empty() {
+                    reader.error(span(row), format!("{} has no points", reader.label()), None);
+                    return None;
+                }
+                let last = points.len() / N;
+                let point = |(number, point): (usize, &[f64])| [point, &[f64::from(u8::from(number == last))]].concat();
+                Some((1..).zip(points.chunks(N)).flat_map(point).collect())
+            })
+        })
+        .collect();
+    Some(rows.into_iter().collect::<Option<Vec<_>>>()?.concat())
+}
+
 /// A list of entries that are lists of numbers themselves.
 fn entries<const N: usize>(
     reader: &mut Reader,
@@ -374,6 +447,8 @@ mod tests {
             (ORDER, "2.0", vec![0.0]),
             (ParamKind::Count(1, 8), "8", vec![8.0]),
             (ParamKind::Quadruple, "[0, 0, 0, 0]", vec![0.0; 4]),
+            (ParamKind::Knots, "\"pieces\"", vec![1.0]),
+            (ParamKind::Knots, "[0, 0, 0.5, 2]", vec![6.0, 0.0, 0.0, 0.5, 2.0]),
         ] {
             assert_eq!(read(kind, text), Ok(numbers), "{kind:?} {text}");
         }
@@ -394,6 +469,16 @@ mod tests {
             (ParamKind::Matrix, "[[1, 0, 0], [0, 1, 0]]"),
             (ParamKind::Matrix, "[1, 0, 0, 0, 1, 0, 0, 0, 1]"),
             (ParamKind::Matrix, "[[1, 2, 3], [4, 5, 6], [7, 8, 9]]"),
+            (ParamKind::Knots, "\"odd\""),
+            (ParamKind::Knots, "3"),
+            (ParamKind::Knots, "[0, 2, 1]"),
+            (ParamKind::Knots, "[0, [1]]"),
+            (ParamKind::Net, "[[1, 2, 3], [4, 5, 6]]"),
+            (ParamKind::Net, "[[[1, 2, 3], [4, 5, 6]]]"),
+            (ParamKind::Net, "[[[1, 2, 3]], [[4, 5, 6]]]"),
+            (ParamKind::Net, "[[[1, 2, 3], [4, 5, 6]], [[4, 5, 6]]]"),
+            (ParamKind::Net, "[[[1, 2, 3], [4, 5, 6]], []]"),
+            (ParamKind::WeightedNet, "[[[1, 2, 3, 1], [4, 5, 6, 0]], [[1, 2, 3, 1], [4, 5, 6, 1]]]"),
             (ParamKind::Contours, "[[1, 2], [3, 4, 360]]"),
             (ParamKind::Contours, "[[1, 2]]"),
             (ParamKind::Contours, "[[[1, 2], [3, 4, 90]], [1, 2]]"),
@@ -417,6 +502,10 @@ mod tests {
             (ParamKind::Matrix, json!([[1, 0.5, 0], [0, 1, -2], [0, 0, 1]])),
             (ParamKind::Balls, json!([[1, 0, 0.5, 0], [0.5, 2, 3, 0.25]])),
             (ParamKind::Weighted, json!([[1, 0, 0.5, 1], [0.5, 2, 3, 0.25]])),
+            (ParamKind::Knots, json!("even")),
+            (ParamKind::Knots, json!([0, 0, 0.5, 2.25])),
+            (ParamKind::Net, json!([[[1, 0, 0.5], [2, 0, 0]], [[0, 1, 0], [2, 2, 3]], [[0, 4, 0], [2, 4, -1]]])),
+            (ParamKind::WeightedNet, json!([[[1, 0, 0.5, 1], [2, 0, 0, 2]], [[0, 1, 0, 1], [2, 2, 3, 0.5]]])),
             (ParamKind::Text, json!("Grüße\n")),
             (ParamKind::Contours, json!([[1, 0], [0.5, 2, 90], [0, 1]])),
             (ParamKind::Contours, json!([[[1, 0, 180], [0.5, 2]], [[0, 1], [1, 1], [2, 2, -30.5]]])),
