@@ -66,7 +66,7 @@ impl Special for BSplineSheet {
             ),
         ],
         elsewhere: &["B-spline surface", "bspline surface", "spline patch"],
-        example: r#"{ "b_spline_patch": { "radius": 0.05, "degree_u": 2, "closed_v": true, "tolerance": 0.01, "points": [
+        example: r#"{ "b_spline_patch": { "radius": 0.05, "degree_u": 2, "closed_v": true, "tolerance": 0.004, "points": [
             [[0.6, 0, -1], [0, 0.6, -1], [-0.6, 0, -1], [0, -0.6, -1]],
             [[1.4, 0, -0.6], [0, 1.4, -0.4], [-1.4, 0, -0.6], [0, -1.4, -0.4]],
             [[0.4, 0, 0.4], [0, 0.4, 0.4], [-0.4, 0, 0.4], [0, -0.4, 0.4]],

@@ -68,7 +68,7 @@ impl Special for NurbsSheet {
             ),
         ],
         elsewhere: &["NURBS surface", "rational Bézier patch", "part of a sphere", "part of a quadric"],
-        example: r#"{ "nurbs_patch": { "radius": 0.05, "degree_u": 2, "degree_v": 2, "knots_v": "pieces", "tolerance": 0.01, "points": [
+        example: r#"{ "nurbs_patch": { "radius": 0.05, "degree_u": 2, "degree_v": 2, "knots_v": "pieces", "tolerance": 0.004, "points": [
             [[0, -0.9, 0, 1], [0.9, -0.9, 0, 0.70710678], [0.9, 0, 0, 1], [0.9, 0.9, 0, 0.70710678], [0, 0.9, 0, 1]],
             [[0, -0.9, 0.9, 0.70710678], [0.9, -0.9, 0.9, 0.5], [0.9, 0, 0.9, 0.70710678], [0.9, 0.9, 0.9, 0.5], [0, 0.9, 0.9, 0.70710678]],
             [[0, 0, 0.9, 1], [0, 0, 0.9, 0.70710678], [0, 0, 0.9, 1], [0, 0, 0.9, 0.70710678], [0, 0, 0.9, 1]] ] } }"#,

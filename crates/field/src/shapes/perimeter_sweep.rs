@@ -21,8 +21,10 @@ pub static PERIMETER_SWEEP: Shape = Shape {
         params: &[],
         elsewhere: &["perimeter_extrude", "moulding", "picture frame", "profile along an outline"],
         example: r#"{ "perimeter_sweep": [
-            { "star": { "tips": 5, "outer": 0.85, "inner": 0.5, "round": 0.05 } },
-            { "difference": [{ "rectangle": { "size": [0.3, 0.3] } }, { "circle": { "radius": 0.12, "at": [0.15, 0.15] } }] } ] }"#,
+            { "star": { "tips": 5, "outer": 0.85, "inner": 0.45 } },
+            { "difference": [
+                { "rectangle": { "size": [0.3, 0.3] } }, { "translate": { "by": [0.15, 0.15, 0], "shape": { "circle": { "radius": 0.2 } } } }
+            ] } ] }"#,
     },
     kind: Kind::PerimeterSweep,
     file: None,

@@ -88,7 +88,7 @@ impl Combine for Sweeping {
             Param::required("points", ParamKind::Points3, "The points [x, y, z]: two at least."),
         ],
         elsewhere: &["sweep along a curve", "path extrude", "follow me", "extrude along a spline", "loft along a path"],
-        example: r#"{ "sweep": { "points": [[-1, -0.5, -0.4], [-0.5, 0.5, 0.2], [0.2, -0.3, 0.3], [1, 0.4, -0.3]],
+        example: r#"{ "sweep": { "points": [[-1, -0.6, -0.4], [-0.2, -0.8, 0.3], [0.6, -0.1, -0.3], [0.1, 0.7, 0.3], [-0.8, 0.4, 0]],
             "shape": { "star": { "tips": 5, "outer": 0.28, "inner": 0.14 } } } }"#,
     };
 
