@@ -113,6 +113,13 @@ fn scenes_of_figures_are_drawn_as_slices_and_refused_by_what_traces_rays() {
     assert_eq!(run(folder.path(), &["slice", "s.json", "-o", "s.png"]).0, 0);
     let [rendered, sliced] = ["r.png", "s.png"].map(|name| pixels(&folder.path().join(name)));
     assert!(rendered == sliced);
+    assert_eq!(run(folder.path(), &["render", "s.json", "-o", "c.png", "--crop", "30,20,11,7"]).0, 0);
+    let ((width, height, cut), (whole_width, _, whole)) = (pixels(&folder.path().join("c.png")), rendered);
+    assert_eq!((width, height), (11, 7));
+    for (y, row) in cut.chunks(3 * width).enumerate() {
+        let start = 3 * ((y + 20) * whole_width + 30);
+        assert!(*row == whole[start..start + 3 * width], "row {y} of the crop");
+    }
     for args in [
         &["compare", "s.json"][..],
         &["shader", "s.json", "--target", "wgsl"],

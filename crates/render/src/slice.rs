@@ -65,7 +65,8 @@ const AT_SURFACE: f64 = 0.02;
 const ROWS: u32 = 4;
 
 impl Slice {
-    /// The picture. Each pixel is divided into squares, as many as the options have samples, rounded up to a square number.
+    /// The picture, or the part of it that the options ask for. Each pixel is divided into squares, as many as the options have
+    /// samples, rounded up to a square number.
     ///
     /// # Errors
     /// If the options can't be followed, or it was given up.
@@ -76,7 +77,7 @@ impl Slice {
         progress: &dyn Progress,
     ) -> Result<Rendered, RenderError> {
         let start = Instant::now();
-        options.region()?;
+        let region = options.region()?;
         let fine = squares_along(options.samples);
         let grid =
             Options { width: options.width * fine, height: options.height * fine, crop: None, ..options.clone() };
@@ -102,7 +103,13 @@ impl Slice {
         }
         let mut stats = Stats { evaluations: evaluations + values.len() as u64, ..Stats::default() };
         stats.times.wall = start.elapsed();
-        Ok(Rendered { image: Image::new(options.width, options.height, pixels), stats })
+        // Lines depend on what lies beside a pixel, so that a part is cut out of the whole.
+        let row = |y: u32| {
+            let first = (y * options.width + region.x) as usize;
+            &pixels[first..first + region.width as usize]
+        };
+        let pixels = (region.y..region.y + region.height).flat_map(row).copied().collect();
+        Ok(Rendered { image: Image::new(region.width, region.height, pixels), stats })
     }
 
     /// The lines of the surface and of the multiples of the spacing, with their values, on a grid of the options' size; points
