@@ -235,6 +235,12 @@ fn maps() -> Vec<Mapped> {
             let angle = 130f64.to_radians() * (-p.truncate().length() / 0.7).exp();
             DQuat::from_rotation_z(-angle) * p
         }),
+        ("symmetry along x", child().symmetric("x"), |p| DVec3::new(p.x.abs(), p.y, p.z)),
+        ("symmetry along y", child().symmetric("y"), |p| DVec3::new(p.x, p.y.abs(), p.z)),
+        ("smooth symmetry along x and z", child().symmetric("xz").with("k", &[0.4.into()]), |p| {
+            let smooth = |x: f64| if x.abs() < 0.4 { x * x / 0.8 + 0.2 } else { x.abs() };
+            DVec3::new(smooth(p.x), p.y, smooth(p.z))
+        }),
         ("curl", child().curl(40.0), |p| DQuat::from_rotation_z(40f64.to_radians() * p.x) * p),
     ]
 }
