@@ -13,7 +13,7 @@ fn program(field: &Field) -> Program {
 }
 
 fn rows(points: &[DVec3]) -> impl Iterator<Item = [f64; 3]> {
-    points.iter().map(|point| point.to_array())
+    points.iter().map(DVec3::to_array)
 }
 
 /// Points of a curve and its directions there, close together.
