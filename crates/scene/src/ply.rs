@@ -137,7 +137,7 @@ mod tests {
             (text(HEADER, "0.5 -1.25 7 3\n"), 3, "no sound PLY file"),
             (text("element face 0\nproperty float x\nend_header\n", ""), 3, "without vertices"),
             (b"ply\nformat odd 1.0\nend_header\n".to_vec(), 3, "no sound PLY file"),
-            (text(HEADER, "0.5 nan 7 3\n2 4 7 1\n"), 3, "vertex 1 is not finite"),
+            (binary("little", |file| file.extend([255; 30])), 3, "vertex 1 is not finite"),
         ] {
             let fault = vertices(&file, width).expect_err(part);
             assert!(fault.contains(part), "{fault}, not {part}");

@@ -1,4 +1,4 @@
-//! Sweep of a plane figure along a curve. Exact outside where the figure is, and the curve turns less sharply than the figure is wide.
+//! Sweep of a plane figure along a curve, which turns less sharply than the figure is wide. Exact outside where the figure is.
 //!
 //! The curve becomes arcs within a tolerance. The figure stands at a right angle to it and turns about it no more than it must
 //! (Bishop, "There is more than one way to frame a curve", 1975). Along an arc such a frame turns about the arc's axis alone: each
@@ -159,15 +159,17 @@ impl Map for Sweeping {
                  open, or move some points"
             ));
         }
-        // How far the figure lies towards the axis of each arc.
-        let is_beside = rows.chunks_exact(ROW).all(|row| {
+        for row in rows.chunks_exact(ROW) {
             let [radius, cos, sin] = [row[arcs3::ROW - 1], row[arcs3::ROW], row[arcs3::ROW + 1]];
-            radius == 0.0 || reach(DVec3::new(-cos, sin, 0.0)) <= radius
-        });
-        Ok(Contract {
-            inside: figure.at_most_bound().inside,
-            ..if is_beside { figure } else { figure.at_most_bound() }
-        })
+            let inward = reach(DVec3::new(-cos, sin, 0.0));
+            if radius > 0.0 && inward > radius {
+                return Err(format!(
+                    "the curve of `sweep` turns too sharply for its figure, which reaches {inward:.3} inwards where the radius of the \
+                     curve is {radius:.3}: bend it less, or take a smaller figure"
+                ));
+            }
+        }
+        Ok(Contract { inside: figure.at_most_bound().inside, ..figure })
     }
 
     fn support(args: &[f64], direction: DVec3, reach: Supports<'_>) -> f64 {
