@@ -11,7 +11,7 @@ use super::b_spline::Knots;
 use super::plane::PLANE;
 use super::product;
 use super::spline;
-use super::tube::{OVERLAP, joints};
+use super::tube::joints;
 use crate::arcs3::{self, Arc3, of_curve};
 use crate::curve::Bezier;
 use crate::remember::remembered;
@@ -57,6 +57,10 @@ const TOLERANCE: f64 = 1e-4;
 /// overlap there at least.
 const ROW: usize = arcs3::ROW + 4;
 
+/// Where pieces go on they count as longer by this share of the largest coordinate of the curve: enough that small boxes lie within
+/// one of both, and little enough that what both differ by there, about the square of it over the radius of the curve, is nothing.
+const OVERLAP: f64 = 1e-4;
+
 /// Around a closed curve the figure may be turned by so much less than once: rounding errors.
 const MOST_TWIST: f64 = 1e-4;
 
@@ -89,7 +93,7 @@ impl Combine for Sweeping {
         ],
         elsewhere: &["sweep along a curve", "path extrude", "follow me", "extrude along a spline", "loft along a path"],
         example: r#"{ "sweep": { "points": [[-1, -0.6, -0.4], [-0.2, -0.8, 0.3], [0.6, -0.1, -0.3], [0.1, 0.7, 0.3], [-0.8, 0.4, 0]],
-            "shape": { "star": { "tips": 5, "outer": 0.28, "inner": 0.14 } } } }"#,
+            "shape": { "star": { "tips": 5, "outer": 0.17, "inner": 0.08 } } } }"#,
     };
 
     const HULL: Hull = Hull::Common;
@@ -186,7 +190,7 @@ impl Map for Sweeping {
         let out = q.dot(vec3(uy * nz - uz * ny, uz * nx - ux * nz, ux * ny - uy * nx));
         let goes_on = S::select(along.lt(zero), begins, ends);
         let along = along.abs();
-        let overlap = S::select(goes_on.lt(zero), zero, (along + across.abs() + half) * OVERLAP + goes_on);
+        let overlap = goes_on.max(zero);
         // In the plane of the nearer end, and beyond it.
         let past = along - half;
         let (beside, beyond) = (across * cos + past * sin, past * cos - across * sin);
@@ -253,7 +257,7 @@ fn rows(args: &[f64]) -> Vec<f64> {
             return Vec::new();
         }
         let arcs = arcs(args);
-        let mut joints = joints(&arcs);
+        let mut joints = joints(&arcs, OVERLAP);
         if let (true, [first, .., last]) = (args[1] == 0.0, &mut joints[..]) {
             // Even if it comes back to where it began, as the figure may be turned there.
             (first[0], last[1]) = (-1.0, -1.0);
