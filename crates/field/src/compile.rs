@@ -9,7 +9,7 @@ use crate::formula::{Binary, Formula, Term, Unary};
 use crate::kernel::AFFINE_CONSTANTS;
 use crate::mix::MIX_CONSTANTS;
 use crate::operation::{Code, Derive, Link, NO_REGION, Region, Run, Step, StepId, Steps};
-use crate::shape::{CombineTable, Kind, MapTable, Parts, PrimitiveTable, ProductTable, Shape, range_constants};
+use crate::shape::{CombineTable, Kind, MapTable, PrimitiveTable, Shape, range_constants};
 use crate::shapes::{self, formula, loft, repeat_endless, twist};
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
@@ -204,8 +204,18 @@ impl Compiler {
                 self.joined(before, value)
             }
             Kind::Product(table) => {
-                let (space, at) = self.settled(space);
-                let value = self.product(tree, table, &space, at, material);
+                let (mut space, mut at) = self.settled(space);
+                if let Some(frame) = &table.frame {
+                    let constants = self.prepared(frame.prepare, &tree.args);
+                    let point = self.push(Step::Map { table: frame, from: space.point, at, constants });
+                    (space, at) = self.settled(&Space { point, chain: Vec::new() });
+                }
+                let a = self.emit(&tree.children[0], &space, material, None);
+                let range = (table.range)(&node.numbers()).0;
+                let constants = self.prepared(table.range_constants, &tree.args);
+                let b = self.measure(range, space.point, at, constants);
+                let constants = self.prepared(table.combine.prepare, &tree.args);
+                let value = self.push(Step::Combine { table: &table.combine, a, b, constants });
                 self.joined(before, value)
             }
             Kind::Loft => {
@@ -266,52 +276,6 @@ impl Compiler {
                 let by = self.formula(formula, space.point, at);
                 let value = self.push(Step::Altered { op: Binary::Add, from, by });
                 self.joined(before, value)
-            }
-        }
-    }
-
-    /// Emits the union of all parts of a product, cut off where it has ends.
-    fn product(
-        &mut self,
-        tree: &Slotted<'_>,
-        table: &'static ProductTable,
-        space: &Space,
-        at: Run,
-        material: Option<MaterialId>,
-    ) -> StepId {
-        let numbers = tree.node.numbers();
-        let Parts { filled, ends } = (table.parts)(&numbers);
-        let range = (table.range)(&numbers).0;
-        let range_constants = self.prepared(table.range_constants, &tree.args);
-        let constants = self.prepared(table.combine.prepare, &tree.args);
-        let frame = table.frame.as_ref().map(|frame| (frame, self.prepared(frame.prepare, &tree.args).range()));
-        let part = |compiler: &mut Self, index: usize| {
-            let (space, at) = match &frame {
-                None => (space.clone(), at),
-                Some((table, all)) => {
-                    let width = all.len() / (filled + ends);
-                    let start = all.start + index * width;
-                    let constants = Run::from(start..start + width);
-                    let point = compiler.push(Step::Map { table, from: space.point, at, constants });
-                    compiler.settled(&Space { point, chain: Vec::new() })
-                }
-            };
-            let a = compiler.emit(&tree.children[0], &space, material, None);
-            let b = compiler.measure(range, space.point, at, range_constants);
-            compiler.push(Step::Combine { table: &table.combine, a, b, constants })
-        };
-        let union = |compiler: &mut Self, parts: Range<usize>| {
-            parts.fold(None, |before, index| {
-                let value = part(compiler, index);
-                Some(compiler.joined(before, value))
-            })
-        };
-        let from = union(self, 0..filled).expect("there is a part");
-        match self.as_measure(|compiler| union(compiler, filled..filled + ends)) {
-            None => from,
-            Some(distance) => {
-                let by = self.push(Step::Unary { op: Unary::Neg, from: distance });
-                self.push(Step::Altered { op: Binary::Max, from, by })
             }
         }
     }

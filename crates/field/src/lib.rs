@@ -94,9 +94,9 @@ mod shape_prelude {
     pub(crate) use crate::kernel::{PrimitiveKernel, primitive_models};
     pub(crate) use crate::scalar::{Constants, Interval, Scalar};
     pub(crate) use crate::shape::{
-        AXIS, About, Combine, Copies, ExactForm, FileParam, Hull, Map, MapTable, Modify, Param, ParamKind, Parts,
-        Place, PlaceCall, Primitive, PrimitiveTable, Product, RangeCall, Settled, Shape, Special, Supports, in_plane,
+        AXIS, About, Combine, Copies, ExactForm, FileParam, Hull, Map, MapTable, Modify, Param, ParamKind, Place,
+        PlaceCall, Primitive, PrimitiveTable, Product, RangeCall, Settled, Shape, Special, Supports, in_plane,
     };
     pub(crate) use crate::vector::{Vec3, vec3};
-    pub(crate) use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
+    pub(crate) use glam::{DAffine3, DMat3, DQuat, DVec3};
 }

@@ -25,8 +25,8 @@ pub(crate) use table::range_constants;
 pub use table::{CombineTable, CopiesTable, MapTable, ModifyTable, PlaceTable, PrimitiveTable, ProductTable};
 pub(crate) use traits::in_plane;
 pub use traits::{
-    Combine, Copies, ExactForm, Hull, Map, Modify, Parts, Place, PlaceCall, Primitive, Product, RangeCall, Settled,
-    Special, Supports,
+    Combine, Copies, ExactForm, Hull, Map, Modify, Place, PlaceCall, Primitive, Product, RangeCall, Settled, Special,
+    Supports,
 };
 
 /// A function that makes or changes a field.

@@ -124,7 +124,6 @@ pub mod stroke;
 pub mod superellipse;
 pub mod svg;
 pub mod svg_path;
-pub mod sweep;
 pub mod swirl;
 pub mod symmetry;
 pub mod taper;
@@ -262,7 +261,6 @@ pub use stroke::*;
 pub use superellipse::*;
 pub use svg::*;
 pub use svg_path::*;
-pub use sweep::*;
 pub use swirl::*;
 pub use symmetry::*;
 pub use taper::*;
@@ -418,7 +416,6 @@ pub static ALL: &[&Shape] = &[
     &SUPERELLIPSE,
     &SVG,
     &SVG_PATH,
-    &SWEEP,
     &SWIRL,
     &SYMMETRY,
     &TAPER,

@@ -1,8 +1,8 @@
 //! The functions of each trait's items as data.
 
 use super::{
-    Combine, Copies, ExactForm, Hull, Kind, Map, Modify, Parts, Place, PlaceCall, Primitive, Product, RangeCall,
-    Settled, Shape, Special, Supports,
+    Combine, Copies, ExactForm, Hull, Kind, Map, Modify, Place, PlaceCall, Primitive, Product, RangeCall, Settled,
+    Shape, Special, Supports,
 };
 use crate::contract::{Contract, Dimension};
 use crate::expr::Expr;
@@ -71,8 +71,6 @@ pub struct MapTable {
 pub struct ProductTable {
     /// See [`Product::FRAME`].
     pub frame: Option<MapTable>,
-    /// See [`Product::parts`].
-    pub parts: fn(&[f64]) -> Parts,
     /// See [`Product::range`].
     pub range: fn(&[f64]) -> RangeCall,
     /// The constants of the range's formula.
@@ -221,7 +219,6 @@ impl ProductTable {
     pub const fn of<P: Product>() -> Self {
         Self {
             frame: P::FRAME,
-            parts: P::parts,
             range: P::range,
             range_constants: |args| range_constants(P::range(args)),
             combine: CombineTable::of::<P>(),

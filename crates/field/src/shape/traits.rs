@@ -235,22 +235,8 @@ pub trait Product: Combine {
     /// a distance, whatever the parameters.
     const FRAME: Option<MapTable> = None;
 
-    /// How many such products it is the union of, and what cuts that off; one product unless there is a frame.
-    fn parts(_args: &[f64]) -> Parts {
-        Parts { filled: 1, ends: 0 }
-    }
-
     /// The range: a call of a primitive that looks at z alone, the same one for all parameters.
     fn range(args: &[f64]) -> RangeCall;
-}
-
-/// What a [`Product`] consists of. The constants of its frame are those of each part in turn, equally many for each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Parts {
-    /// So many products, of which it is the union: one at least.
-    pub filled: usize,
-    /// So many products without a thickness come after these, whose distances cut the inside off.
-    pub ends: usize,
 }
 
 /// A call of a [`Primitive`] with its arguments.
