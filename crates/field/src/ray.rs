@@ -31,7 +31,6 @@ impl ExactRay {
                 | Kind::Modify(_)
                 | Kind::Product(_)
                 | Kind::Loft
-                | Kind::PerimeterSweep
                 | Kind::Copies(_)
                 | Kind::Endless { .. }
                 | Kind::Formula

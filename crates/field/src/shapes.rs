@@ -72,7 +72,6 @@ pub mod outline;
 pub mod paint;
 pub mod parabola;
 pub mod parallelogram;
-pub mod perimeter_sweep;
 pub mod pipe;
 pub mod plane;
 pub mod polygon;
@@ -212,7 +211,6 @@ pub use outline::*;
 pub use paint::*;
 pub use parabola::*;
 pub use parallelogram::*;
-pub use perimeter_sweep::*;
 pub use pipe::*;
 pub use plane::*;
 pub use polygon::*;
@@ -361,7 +359,6 @@ pub static ALL: &[&Shape] = &[
     &PAINT,
     &PARABOLA,
     &PARALLELOGRAM,
-    &PERIMETER_SWEEP,
     &PIPE,
     &PLANE,
     &POLYGON,

@@ -113,7 +113,6 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
         Kind::Place(_)
         | Kind::Copies(_)
         | Kind::Loft
-        | Kind::PerimeterSweep
         | Kind::Paint
         | Kind::Formula
         | Kind::Warp
