@@ -4,7 +4,7 @@
 //! values are at least. Whoever comes out of the heap and lies farther than the least value so far ends the search
 //! (best-first search; Hjaltason and Samet, "Distance Browsing in Spatial Databases", 1999).
 
-use crate::analysis::{Analysis, analyse, copies};
+use crate::analysis::{analyse, copies};
 use crate::bvh::{Bvh, Waiting};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::field::Field;
@@ -37,14 +37,27 @@ impl Nearest {
     /// # Errors
     /// All errors of the fields.
     pub fn new(fields: &[Field]) -> Result<Self, Vec<Diagnostic>> {
-        let diagnostics = fields.iter().flat_map(|field| analyse(field).1);
-        let faults: Vec<Diagnostic> = diagnostics.filter(|d| d.severity == Severity::Error).collect();
+        let mut parts = Vec::new();
+        fields.iter().for_each(|field| take_apart(field, &mut parts));
+        let (mut shapes, mut known, mut faults) = (Vec::new(), Vec::new(), Vec::new());
+        for part in parts {
+            let (analysis, diagnostics) = analyse(&part);
+            faults.extend(diagnostics.into_iter().filter(|d| d.severity == Severity::Error));
+            let Some(analysis) = analysis else { continue };
+            match moved_copies(&part) {
+                Some(copies) => {
+                    known.extend(copies.iter().filter_map(|copy| analyse(copy).0));
+                    shapes.extend(copies);
+                }
+                None => {
+                    known.push(analysis);
+                    shapes.push(part);
+                }
+            }
+        }
         if !faults.is_empty() {
             return Err(faults);
         }
-        let mut shapes = Vec::new();
-        fields.iter().for_each(|field| take_apart(field, &mut shapes));
-        let known: Vec<Analysis> = shapes.iter().filter_map(|shape| analyse(shape).0).collect();
         let mut programs = Vec::with_capacity(shapes.len());
         for shape in &shapes {
             programs.push(Structure::compile(std::slice::from_ref(shape))?.program(DVec3::ZERO));
@@ -115,7 +128,14 @@ fn take_apart(field: &Field, shapes: &mut Vec<Field>) {
         Kind::Combine(table) if table.is_minimum && !field.node().children.is_empty() => {
             field.node().children.iter().for_each(|child| take_apart(child, shapes));
         }
-        Kind::Copies(table) if table.are_moved => shapes.extend(copies(field).into_iter().flatten()),
         _ => shapes.push(field.clone()),
+    }
+}
+
+/// The copies that a sound field is the union of, if they are moved and never turned: these have the same bits by themselves.
+fn moved_copies(field: &Field) -> Option<Vec<Field>> {
+    match &field.node().shape.kind {
+        Kind::Copies(table) if table.are_moved => copies(field),
+        _ => None,
     }
 }

@@ -8,20 +8,24 @@ pub use fearless_simd::Level;
 
 /// The best instruction set of this machine that kernels exist for.
 pub fn best() -> Level {
-    *available().last().expect("kernels exist for the lowest instruction set")
+    let best = Level::new();
+    #[cfg(all(target_arch = "x86_64", not(all(feature = "instruction-sets", not(test)))))]
+    let best = best.as_sse2().map_or(best, Level::Sse2);
+    best
 }
 
 /// All instruction sets of this machine that kernels exist for, the best one last.
 pub fn available() -> Vec<Level> {
-    let best = Level::new();
-    #[cfg(all(target_arch = "x86_64", feature = "instruction-sets", not(test)))]
+    let best = best();
+    #[cfg(target_arch = "x86_64")]
     let levels =
-        [best.as_sse2().map(Level::Sse2), best.as_avx2().map(Level::Avx2), best.as_avx512().map(Level::Avx512)];
-    #[cfg(all(target_arch = "x86_64", not(all(feature = "instruction-sets", not(test)))))]
-    let levels = [best.as_sse2().map(Level::Sse2)];
+        [best.as_sse2().map(Level::Sse2), best.as_avx2().map(Level::Avx2), best.as_avx512().map(Level::Avx512)]
+            .into_iter()
+            .flatten()
+            .collect();
     #[cfg(not(target_arch = "x86_64"))]
-    let levels = [Some(best)];
-    levels.into_iter().flatten().collect()
+    let levels = vec![best];
+    levels
 }
 
 /// The short name of an instruction set: `sse2`, `avx2`, `avx512`, or `native` on other machines than x86-64.

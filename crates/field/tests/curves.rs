@@ -2,10 +2,10 @@
 
 mod common;
 
-use common::Random;
+use common::{Random, ranges_hold};
 use freikugel_field::curve::{BSpline, Bezier};
 use freikugel_field::shapes::*;
-use freikugel_field::{Evaluator, Extent, Field, Interval, Metric, Points, Program, Structure, analyse, extent};
+use freikugel_field::{Evaluator, Extent, Field, Metric, Points, Program, Structure, analyse, extent};
 use glam::{DVec3, DVec4};
 
 /// Rounding errors of a few operations on numbers of this size.
@@ -121,17 +121,9 @@ fn ranges_hold_all_values() {
         let balls: Vec<[f64; 4]> = (0..5).map(|_| ball(&mut random).to_array()).collect();
         for field in [tapered_tube(balls.clone()).into(), Field::from(tapered_spline(balls.clone()))] {
             let program = program(&field);
-            for step in 0..100 {
-                let (middle, half) = (random.point(1.5), 10.0_f64.powi(-(step % 7)));
-                let enclosure = program.interval(middle.to_array().map(|x| Interval::new(x - half, x + half)));
-                for p in (0..20).map(|_| middle + random.point(half)) {
-                    let value = program.value(p);
-                    assert!(enclosure.contains(value), "{value} at {p} in {enclosure:?}");
-                }
-                // No distance changes by more than the way there.
-                let most = 6.0 * half * 3.0_f64.sqrt();
-                assert!(half > 1e-3 || enclosure.width() < most.max(1e-9) * 10.0, "{enclosure:?} for {half}");
-            }
+            // No distance changes by more than the way there.
+            let widest = |half: f64| (6.0 * half * 3.0_f64.sqrt()).max(1e-9) * 10.0;
+            ranges_hold(&program, 100, widest, &mut random);
         }
     }
 }

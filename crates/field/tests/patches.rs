@@ -2,12 +2,11 @@
 
 mod common;
 
-use common::Random;
+use common::{Random, ranges_hold};
 use freikugel_field::shapes::*;
 use freikugel_field::surface::{BSplinePatch, BezierPatch};
 use freikugel_field::{
-    Aabb, Cell, Cells, Evaluator, Extent, Field, Interval, Metric, Points, Program, Splitter, Structure, analyse,
-    extent, simd,
+    Aabb, Cell, Cells, Evaluator, Extent, Field, Metric, Points, Program, Splitter, Structure, analyse, extent, simd,
 };
 use glam::{DVec3, DVec4};
 
@@ -308,15 +307,7 @@ fn ranges_hold_all_values() {
     for _ in 0..6 {
         let net = net(&mut random, 3, 4);
         let program = program(&bezier_patch(RADIUS, rows(&net)).with("tolerance", &[0.1.into()]).into());
-        for step in 0..60 {
-            let (middle, half) = (random.point(1.5), 10.0_f64.powi(-(step % 7)));
-            let enclosure = program.interval(middle.to_array().map(|x| Interval::new(x - half, x + half)));
-            for p in (0..20).map(|_| middle + random.point(half)) {
-                let value = program.value(p);
-                assert!(enclosure.contains(value), "{value} at {p} in {enclosure:?}");
-            }
-            assert!(half > 1e-3 || enclosure.width() < 40.0 * half, "{enclosure:?} for {half}");
-        }
+        ranges_hold(&program, 60, |half| 40.0 * half, &mut random);
     }
 }
 

@@ -32,20 +32,15 @@ pub(crate) fn vertices(contents: &[u8], width: usize) -> Result<Vec<f64>, String
     if let Some(missing) = wanted.iter().find(|&&name| !vertex.properties.contains_key(name)) {
         return Err(format!("is a PLY file whose vertices have no `{missing}`"));
     }
-    for element in header.elements.values() {
-        if element.name != VERTEX {
-            Parser::<Passed>::new().read_payload_for_element(&mut reader, element, &header).map_err(broken)?;
-            continue;
-        }
-        let vertices =
-            Parser::<Vertex>::new().read_payload_for_element(&mut reader, element, &header).map_err(broken)?;
-        if let Some(index) = vertices.iter().position(|Vertex(numbers)| !numbers[..width].iter().all(|n| n.is_finite()))
-        {
-            return Err(format!("is a PLY file whose vertex {} is not finite", index + 1));
-        }
-        return Ok(vertices.iter().flat_map(|Vertex(numbers)| &numbers[..width]).copied().collect());
+    for before in header.elements.values().take_while(|element| element.name != VERTEX) {
+        Parser::<Passed>::new().read_payload_for_element(&mut reader, before, &header).map_err(broken)?;
     }
-    unreachable!("there are vertices")
+    let vertices = Parser::<Vertex>::new().read_payload_for_element(&mut reader, vertex, &header).map_err(broken)?;
+    let rows = || vertices.iter().map(|Vertex(numbers)| &numbers[..width]);
+    match rows().position(|row| !row.iter().all(|number| number.is_finite())) {
+        Some(index) => Err(format!("is a PLY file whose vertex {} is not finite", index + 1)),
+        None => Ok(rows().flatten().copied().collect()),
+    }
 }
 
 /// The numbers of a vertex; what is not among [`PROPERTIES`] is left out.

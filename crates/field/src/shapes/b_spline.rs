@@ -25,7 +25,12 @@ pub fn b_spline<V: Into<Value>>(
     Form::new(&B_SPLINE, [radius.into(), degree.into(), 0.into(), 0.into()].into_iter().chain(points))
 }
 
-impl Form<BSplineTube> {
+impl Knotted for BSplineTube {}
+
+/// A curve that takes knots.
+pub trait Knotted: Special {}
+
+impl<S: Knotted> Form<S> {
     /// Gives it knots that never fall: as many as there are points, the degree and 1 together, none of them more than the degree
     /// and 1 times. If it is closed, those of one round: one more than there are points.
     #[must_use]

@@ -1,6 +1,6 @@
 //! Tube along a rational B-spline, whose pieces become arcs within a tolerance; the distance from these is exact outside.
 
-use super::b_spline::{KNOTS, Knots};
+use super::b_spline::{KNOTS, Knots, Knotted};
 use super::tube::{TOLERANCE, Wire, along};
 use crate::arcs3::{Rational, of_curve};
 use crate::curve::Bezier;
@@ -28,14 +28,7 @@ pub fn nurbs<V: Into<Value>>(
     Form::new(&NURBS, [radius.into(), degree.into(), 0.into(), 0.into()].into_iter().chain(points))
 }
 
-impl Form<Nurbs> {
-    /// Gives it knots that never fall: as many as there are points, the degree and 1 together, none of them more than the degree
-    /// and 1 times. If it is closed, those of one round: one more than there are points.
-    #[must_use]
-    pub fn knots<V: Into<Value>>(self, knots: impl IntoIterator<Item = V>) -> Self {
-        self.with_knots("knots", knots)
-    }
-}
+impl Knotted for Nurbs {}
 
 impl Special for Nurbs {
     type General = Wire;

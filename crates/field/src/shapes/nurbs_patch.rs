@@ -1,7 +1,7 @@
 //! Sheet along a rational B-spline surface, which becomes triangles within a tolerance; the distance from these is exact outside.
 
 use super::facets::{Facets, TOLERANCE, of_rows};
-use super::spline_sheet::{CLOSED_U, CLOSED_V, DEGREE_U, DEGREE_V, KNOTS_U, KNOTS_V, Sheet};
+use super::spline_sheet::{CLOSED_U, CLOSED_V, DEGREE_U, DEGREE_V, KNOTS_U, KNOTS_V, KnottedSheet, Sheet, arguments};
 use crate::shape_prelude::*;
 
 /// See [`nurbs_patch`].
@@ -18,28 +18,13 @@ pub static NURBS_PATCH: Shape = Shape::special::<NurbsSheet>();
 #[track_caller]
 pub fn nurbs_patch<V: Into<Value>, R: IntoIterator<Item = [V; 4]>>(
     radius: impl Into<Value>,
-    [degree_u, degree_v]: [u32; 2],
+    degrees: [u32; 2],
     rows: impl IntoIterator<Item = R>,
 ) -> Form<NurbsSheet> {
-    let [closed_u, closed_v, knots_u, knots_v, tolerance] = [0; 5].map(Value::from);
-    let before = [radius.into(), degree_u.into(), degree_v.into(), closed_u, closed_v, knots_u, knots_v, tolerance];
-    Form::new(&NURBS_PATCH, before.into_iter().chain(of_rows(rows)))
+    Form::new(&NURBS_PATCH, arguments(radius.into(), degrees, of_rows(rows)))
 }
 
-impl Form<NurbsSheet> {
-    /// Gives it knots along u that never fall: as many as there are rows, the degree and 1 together, none of them more than the
-    /// degree and 1 times. If it is closed along u, those of one round: one more than there are rows.
-    #[must_use]
-    pub fn knots_u<V: Into<Value>>(self, knots: impl IntoIterator<Item = V>) -> Self {
-        self.with_knots("knots_u", knots)
-    }
-
-    /// As [`Form::knots_u`] along v, where the points of a row count.
-    #[must_use]
-    pub fn knots_v<V: Into<Value>>(self, knots: impl IntoIterator<Item = V>) -> Self {
-        self.with_knots("knots_v", knots)
-    }
-}
+impl KnottedSheet for NurbsSheet {}
 
 impl Special for NurbsSheet {
     type General = Facets;

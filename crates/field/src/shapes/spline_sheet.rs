@@ -49,6 +49,31 @@ pub(crate) const KNOTS_V: Param = Param::optional(
     "Where its pieces meet along v, as `knots_u`; in place of rows count the points of a row.",
 );
 
+/// The arguments of an open sheet with knots at equal distances and the usual tolerance, by those of its net.
+pub(crate) fn arguments(radius: Value, [degree_u, degree_v]: [u32; 2], net: Vec<Value>) -> impl Iterator<Item = Value> {
+    let [closed_u, closed_v, knots_u, knots_v, tolerance] = [0; 5].map(Value::from);
+    let before = [radius, degree_u.into(), degree_v.into(), closed_u, closed_v, knots_u, knots_v, tolerance];
+    before.into_iter().chain(net)
+}
+
+/// A sheet that takes knots in both directions.
+pub trait KnottedSheet: Special {}
+
+impl<S: KnottedSheet> Form<S> {
+    /// Gives it knots along u that never fall: as many as there are rows, the degree and 1 together, none of them more than the
+    /// degree and 1 times. If it is closed along u, those of one round: one more than there are rows.
+    #[must_use]
+    pub fn knots_u<V: Into<Value>>(self, knots: impl IntoIterator<Item = V>) -> Self {
+        self.with_knots("knots_u", knots)
+    }
+
+    /// As [`Form::knots_u`] along v, where the points of a row count.
+    #[must_use]
+    pub fn knots_v<V: Into<Value>>(self, knots: impl IntoIterator<Item = V>) -> Self {
+        self.with_knots("knots_v", knots)
+    }
+}
+
 /// A B-spline surface and the radius and tolerance of the sheet along it.
 #[derive(Debug)]
 pub(crate) struct Sheet<'a> {

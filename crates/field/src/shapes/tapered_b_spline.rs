@@ -1,7 +1,7 @@
 //! Tube along a B-spline, whose radius changes as the curve does. It becomes arcs within a tolerance, along which the radius
 //! changes evenly; the distance from these is exact outside.
 
-use super::b_spline::{KNOTS, Knots};
+use super::b_spline::{KNOTS, Knots, Knotted};
 use super::tapered_tube::{TaperedWire, balls};
 use crate::curve::BSpline;
 use crate::remember::remembered;
@@ -24,14 +24,7 @@ pub fn tapered_b_spline<V: Into<Value>>(degree: u32, points: impl IntoIterator<I
     Form::new(&TAPERED_B_SPLINE, [degree.into(), 0.into(), 0.into()].into_iter().chain(points))
 }
 
-impl Form<TaperedBSpline> {
-    /// Gives it knots that never fall: as many as there are points, the degree and 1 together, none of them more than the degree
-    /// and 1 times. If it is closed, those of one round: one more than there are points.
-    #[must_use]
-    pub fn knots<V: Into<Value>>(self, knots: impl IntoIterator<Item = V>) -> Self {
-        self.with_knots("knots", knots)
-    }
-}
+impl Knotted for TaperedBSpline {}
 
 impl Special for TaperedBSpline {
     type General = TaperedWire;

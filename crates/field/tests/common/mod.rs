@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test file uses a part")]
 
 use freikugel_field::shape::Kind;
-use freikugel_field::{Arity, Dimension, Field, Origin, ParamKind, Shape, Value, analyse, shapes};
+use freikugel_field::{Arity, Dimension, Field, Interval, Origin, ParamKind, Program, Shape, Value, analyse, shapes};
 use glam::{DMat3, DQuat, DVec3};
 
 pub(crate) mod inside;
@@ -245,6 +245,21 @@ fn can_be(shape: &Shape, dimension: Dimension) -> bool {
         (Kind::Copies(_), Dimension::Plane) => shape.about.name == "repeat",
         (Kind::Place(_), Dimension::Plane) => ["scale", "stretch"].contains(&shape.about.name),
         _ => true,
+    }
+}
+
+/// Checks that enclosures hold the values of random points of boxes of all sizes, and that those of small boxes, by half of their
+/// edges, are no wider than `widest` says.
+pub(crate) fn ranges_hold(program: &Program, boxes: i32, widest: impl Fn(f64) -> f64, random: &mut Random) {
+    const SMALL: f64 = 1e-3;
+    for step in 0..boxes {
+        let (middle, half) = (random.point(1.5), 10.0_f64.powi(-(step % 7)));
+        let enclosure = program.interval(middle.to_array().map(|x| Interval::new(x - half, x + half)));
+        for p in (0..20).map(|_| middle + random.point(half)) {
+            let value = program.value(p);
+            assert!(enclosure.contains(value), "{value} at {p} in {enclosure:?}");
+        }
+        assert!(half > SMALL || enclosure.width() < widest(half), "{enclosure:?} for {half}");
     }
 }
 

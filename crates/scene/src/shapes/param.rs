@@ -304,12 +304,7 @@ fn contours(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
     if !array.elements.iter().any(is_line) {
         return contour(reader, value);
     }
-    let outer = reader.label().to_string();
-    let lines: Vec<Option<Vec<f64>>> = (1..)
-        .zip(&array.elements)
-        .map(|(number, line)| reader.labelled(format!("line {number} of {outer}"), |reader| contour(reader, line)))
-        .collect();
-    Some(lines.into_iter().collect::<Option<Vec<_>>>()?.concat())
+    each(reader, &array.elements, "line", |reader, _, line| contour(reader, line))
 }
 
 /// A closed line: a list of corners.
@@ -322,19 +317,13 @@ fn contour(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
         reader.error(span(value), "a line has at least two corners", None);
         return None;
     }
-    let outer = reader.label().to_string();
-    let mut corners = Vec::new();
-    let mut is_sound = true;
-    for (number, element) in (1..).zip(&array.elements) {
-        let corner = reader.labelled(format!("corner {number} of {outer}"), |reader| match element {
-            Written::Array(parts) if parts.elements.len() == 3 => reader.numbers(element, ["x", "y", "angle"]),
-            _ => reader.numbers(element, ["x", "y"]).map(|[x, y]| [x, y, 0.0]),
-        });
-        is_sound &= corner.is_some();
-        let [x, y, degrees] = corner.unwrap_or_default();
-        corners.extend([x, y, degrees.to_radians(), f64::from(u8::from(number == array.elements.len()))]);
-    }
-    is_sound.then_some(corners)
+    each(reader, &array.elements, "corner", |reader, number, element| {
+        let [x, y, degrees] = match element {
+            Written::Array(parts) if parts.elements.len() == 3 => reader.numbers(element, ["x", "y", "angle"])?,
+            _ => reader.numbers(element, ["x", "y"]).map(|[x, y]| [x, y, 0.0])?,
+        };
+        Some(vec![x, y, degrees.to_radians(), f64::from(u8::from(number == array.elements.len()))])
+    })
 }
 
 /// Knots: one of their names, or a list of numbers, as a node holds them.
@@ -343,14 +332,8 @@ fn knots(reader: &mut Reader, value: &Written<'_>) -> Option<Vec<f64>> {
     match value {
         Written::StringLit(name) => Some(vec![index_of(reader, value, &name.value, names.iter().copied())? as f64]),
         Written::Array(array) => {
-            let outer = reader.label().to_string();
-            let entry = |(number, element): (usize, &Written<'_>)| {
-                reader.labelled(format!("entry {number} of {outer}"), |reader| reader.number(element))
-            };
-            // All of them are looked at.
-            let knots: Vec<Option<f64>> = (1..).zip(&array.elements).map(entry).collect();
-            let first = (names.len() + knots.len()) as f64;
-            [Some(first)].into_iter().chain(knots).collect()
+            let knots = each(reader, &array.elements, "entry", |reader, _, knot| Some(vec![reader.number(knot)?]))?;
+            Some([&[(names.len() + knots.len()) as f64], &knots[..]].concat())
         }
         _ => {
             reader.mistyped(value, &format!("{} or a list of numbers", listed(names.iter().copied())), None);
@@ -370,23 +353,16 @@ fn net<const N: usize>(
         reader.mistyped(value, &format!("a list of rows, which are lists of {what} each"), None);
         return None;
     };
-    let outer = reader.label().to_string();
-    let rows: Vec<Option<Vec<f64>>> = (1..)
-        .zip(&array.elements)
-        .map(|(number, row)| {
-            reader.labelled(format!("row {number} of {outer}"), |reader| {
-                let points = entries(reader, row, what, names)?;
-                if points.is_empty() {
-                    reader.error(span(row), format!("{} has no points", reader.label()), None);
-                    return None;
-                }
-                let last = points.len() / N;
-                let point = |(number, point): (usize, &[f64])| [point, &[f64::from(u8::from(number == last))]].concat();
-                Some((1..).zip(points.chunks(N)).flat_map(point).collect())
-            })
-        })
-        .collect();
-    Some(rows.into_iter().collect::<Option<Vec<_>>>()?.concat())
+    each(reader, &array.elements, "row", |reader, _, row| {
+        let points = entries(reader, row, what, names)?;
+        if points.is_empty() {
+            reader.error(span(row), format!("{} has no points", reader.label()), None);
+            return None;
+        }
+        let last = points.len() / N;
+        let point = |(number, point): (usize, &[f64])| [point, &[f64::from(u8::from(number == last))]].concat();
+        Some((1..).zip(points.chunks(N)).flat_map(point).collect())
+    })
 }
 
 /// A list of entries that are lists of numbers themselves.
@@ -400,16 +376,26 @@ fn entries<const N: usize>(
         reader.mistyped(value, &format!("a list of {what} each"), None);
         return None;
     };
-    let mut numbers = Vec::new();
-    let mut is_sound = true;
+    each(reader, &array.elements, "entry", |reader, _, entry| Some(reader.numbers(entry, names)?.to_vec()))
+}
+
+/// The numbers of all elements of a list, each with its number, counted from 1, as a label. All are read, also after a fault.
+fn each<'a>(
+    reader: &mut Reader,
+    elements: &'a [Written<'a>],
+    what: &str,
+    read: impl Fn(&mut Reader, usize, &'a Written<'a>) -> Option<Vec<f64>>,
+) -> Option<Vec<f64>> {
     let outer = reader.label().to_string();
-    for (index, element) in array.elements.iter().enumerate() {
-        let label = format!("entry {} of {outer}", index + 1);
-        let entry = reader.labelled(label, |reader| reader.numbers(element, names));
-        is_sound &= entry.is_some();
-        numbers.extend(entry.into_iter().flatten());
+    let mut numbers = Some(Vec::new());
+    for (number, element) in (1..).zip(elements) {
+        let own = reader.labelled(format!("{what} {number} of {outer}"), |reader| read(reader, number, element));
+        match (&mut numbers, own) {
+            (Some(numbers), Some(own)) => numbers.extend(own),
+            _ => numbers = None,
+        }
     }
-    is_sound.then_some(numbers)
+    numbers
 }
 
 #[cfg(test)]
