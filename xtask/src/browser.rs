@@ -1,6 +1,6 @@
 //! The tests that need a browser, and what they need besides it.
 
-use crate::install::{install, runs};
+use crate::install::{install as install_packages, runs};
 use crate::run::{Result, root, run};
 
 /// Where the program lies that drives the browser, with the lock file of what it needs.
@@ -14,12 +14,18 @@ const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "g
 
 /// Installs what is missing, and draws pictures in a browser.
 pub(crate) fn test() -> Result {
+    install()?;
+    run_tests(&["-p", "freikugel-shader", "--locked"])
+}
+
+/// Installs what is missing.
+pub(crate) fn install() -> Result {
     let has_browser = std::env::var_os("CHROME_PATH").is_some() || BROWSERS.into_iter().any(runs);
     if !has_browser {
-        install(&["chromium"], "the tests in a browser need Chromium; CHROME_PATH can name another one")?;
+        install_packages(&["chromium"], "the tests in a browser need Chromium; CHROME_PATH can name another one")?;
     }
     if !(runs("node") && runs("npm")) {
-        install(&["nodejs", "npm"], "the tests in a browser need Node.js 20 or later, and npm")?;
+        install_packages(&["nodejs", "npm"], "the tests in a browser need Node.js 20 or later, and npm")?;
     }
     let driver = root().join(DRIVER);
     if !driver.join(DRIVER_PACKAGE).is_file() {
@@ -27,6 +33,14 @@ pub(crate) fn test() -> Result {
         run(&driver, "npm", &["ci", "--no-audit", "--no-fund"])
             .map_err(|error| format!("{error}; the tests in a browser need the package playwright-core of npm"))?;
     }
-    let test = ["test", "-p", "freikugel-shader", "--locked", "--test", "browser"];
-    run(&root(), "cargo", &[&test[..], &["--", "--ignored", "--nocapture"]].concat())
+    Ok(())
+}
+
+/// Draws pictures in a browser, by tests among these packages.
+pub(crate) fn run_tests(selection: &[&str]) -> Result {
+    run(
+        &root(),
+        "cargo",
+        &[&["test"][..], selection, &["--test", "browser", "--", "--ignored", "--nocapture"]].concat(),
+    )
 }

@@ -56,12 +56,14 @@ pub(crate) fn gallery() -> Result {
 
 /// A picture of each shape's example.
 fn thumbnails(root: &Path) -> Result {
-    let program = ["run", "--quiet", "--release", "-p", "freikugel", "--", "help", "shapes"];
     let folder = root.join("target/reference");
     std::fs::create_dir_all(&folder).map_err(|e| e.to_string())?;
-    for name in reference::names(root)? {
+    let ask = |args: &[&str]| {
+        output(root, "cargo", &[&["run", "--quiet", "--release", "-p", "freikugel", "--"], args].concat())
+    };
+    for name in reference::names(&ask)? {
         let scene = folder.join(&name).with_extension("json");
-        let text = output(root, "cargo", &[&program[..], &[&name, "--scene"]].concat())?;
+        let text = ask(&["help", "shapes", &name, "--scene"])?;
         std::fs::write(&scene, text).map_err(|e| e.to_string())?;
         let below = Path::new("reference").join(&name).with_extension("png");
         make(root, &below, &["render", "--small", &scene.display().to_string(), "--width", "240", "--height", "180"])?;

@@ -3,7 +3,7 @@
 //! Copies the workspace to a scratch folder, adds a shape there from a template, regenerates what is generated, and asks
 //! for it everywhere: on the command line, in a picture, as shader text, in the schema and in the documentation.
 
-use crate::run::{Result, SCHEMA, output, root, run, schema};
+use crate::run::{Result, SCHEMA, freikugel, output, root, run, schema};
 use crate::shapes;
 use std::path::Path;
 
@@ -87,8 +87,7 @@ pub(crate) fn shape() -> Result {
     let schema = std::fs::read_to_string(scratch.join(SCHEMA)).map_err(|e| e.to_string())?;
     expect("the schema", &schema, &[NAME, "An octahedron for probing.", "Distance from the centre to a corner."])?;
 
-    let command = ["run", "--quiet", "-p", "freikugel", "--"];
-    let with = |args: &[&str]| output(&scratch, "cargo", &[&command[..], args].concat());
+    let with = |args: &[&str]| freikugel(&scratch, args);
     let documentation = with(&["help", "shapes", NAME])?;
     expect("the documentation", &documentation, &["An octahedron for probing.", "radius"])?;
     let scene = scratch.join("target-probe.json");
@@ -101,8 +100,16 @@ pub(crate) fn shape() -> Result {
     expect("the shader", &with(&["shader", scene, "--target", "wgsl", "--output", "-"])?, &[NAME])?;
     // Every number type. (The tests that need to know what lies inside are for its author.)
     let tests = ["lanes_agree", "gradients_agree", "hessians_agree", "intervals_contain", "expressions_compute"];
-    let conformance = ["test", "--quiet", "-p", "freikugel-field", "--test", "conformance", "--"];
-    run(&scratch, "cargo", &[&conformance[..], &tests].concat())
+    // With the command's package beside the other: what is already built has its features.
+    let packages = ["-p", "freikugel-field", "-p", "freikugel", "--no-default-features"];
+    let conformance = [&["test", "--quiet"][..], &packages, &["--test", "conformance", "--"]].concat();
+    run(&scratch, "cargo", &[&conformance[..], &tests].concat())?;
+    // The command as small as it gets, which is built nowhere else.
+    run(
+        &scratch,
+        "cargo",
+        &[&["test", "--quiet"][..], &packages, &["--test", "command", "--test", "graphics"]].concat(),
+    )
 }
 
 fn expect(what: &str, text: &str, words: &[&str]) -> Result {

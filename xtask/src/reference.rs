@@ -1,6 +1,6 @@
 //! The reference page, which the program writes itself, and the page of all its pictures.
 
-use crate::run::{Result, output, root};
+use crate::run::{Result, freikugel, root};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -11,35 +11,36 @@ const GALLERY: &str = "gallery/README.md";
 /// So many pictures stand side by side.
 const IN_A_ROW: usize = 6;
 
-const PROGRAM: [&str; 8] = ["run", "--quiet", "--locked", "-p", "freikugel", "--", "help", "shapes"];
-
 /// Writes both pages.
 pub(crate) fn write(root: &Path) -> Result {
-    for (path, text) in pages(root)? {
+    for (path, text) in pages(&|args| freikugel(root, args))? {
         std::fs::write(root.join(path), text).map_err(|e| format!("can't write {path}: {e}"))?;
     }
     Ok(())
 }
 
+/// What the command prints for some arguments.
+pub(crate) type Ask<'a> = &'a dyn Fn(&[&str]) -> Result<String>;
+
 /// Fails if the pages are not what [`write()`] would write, or a shape has no picture.
-pub(crate) fn check() -> Result {
+pub(crate) fn check(ask: Ask<'_>) -> Result {
     let root = root();
-    for (path, text) in pages(&root)? {
+    for (path, text) in pages(ask)? {
         let present = std::fs::read_to_string(root.join(path)).map_err(|e| format!("can't read {path}: {e}"))?;
         if present != text {
             return Err(format!("{path} is out of date; run `cargo xtask reference`"));
         }
     }
     let picture = |name: &String| root.join("gallery/reference").join(name).with_extension("png");
-    match names(&root)?.into_iter().find(|name| !picture(name).is_file()) {
+    match names(ask)?.into_iter().find(|name| !picture(name).is_file()) {
         Some(name) => Err(format!("gallery/reference has no picture of {name}; run `cargo xtask gallery`")),
         None => Ok(()),
     }
 }
 
 /// The paths of both pages, and what they should hold.
-fn pages(root: &Path) -> Result<[(&'static str, String); 2]> {
-    let page = output(root, "cargo", &[&PROGRAM[..], &["--markdown"]].concat())?;
+fn pages(ask: Ask<'_>) -> Result<[(&'static str, String); 2]> {
+    let page = ask(&["help", "shapes", "--markdown"])?;
     let gallery = gallery(&page);
     Ok([(PAGE, page), (GALLERY, gallery)])
 }
@@ -65,8 +66,8 @@ fn gallery(page: &str) -> String {
 }
 
 /// The names of all shapes.
-pub(crate) fn names(root: &Path) -> Result<Vec<String>> {
-    let list = output(root, "cargo", &PROGRAM)?;
+pub(crate) fn names(ask: Ask<'_>) -> Result<Vec<String>> {
+    let list = ask(&["help", "shapes"])?;
     let name = |line: &str| line.strip_prefix("  ")?.split_whitespace().next().map(str::to_owned);
     Ok(list.lines().filter_map(name).collect())
 }

@@ -44,12 +44,25 @@ pub(crate) fn output(folder: &Path, program: &str, args: &[&str]) -> Result<Stri
     String::from_utf8(output.stdout).map_err(|e| format!("{program} printed no text: {e}"))
 }
 
+/// What the command of the workspace in `root` prints. It is built as small as it gets, since it is asked for texts alone.
+pub(crate) fn freikugel(root: &Path, args: &[&str]) -> Result<String> {
+    let command = ["run", "--quiet", "-p", "freikugel", "--no-default-features", "--"];
+    output(root, "cargo", &[&command[..], args].concat())
+}
+
+/// What the command prints that the tests were just run for, and which lies beside this program.
+pub(crate) fn tested_freikugel(args: &[&str]) -> Result<String> {
+    let own = std::env::current_exe().map_err(|e| e.to_string())?;
+    let name = format!("freikugel{}", std::env::consts::EXE_SUFFIX);
+    output(&root(), &own.with_file_name(name).display().to_string(), args)
+}
+
 /// Where the schema of scene files is kept.
 pub(crate) const SCHEMA: &str = "schema/scene.schema.json";
 
 /// Writes the schema of scene files.
 pub(crate) fn schema(root: &Path) -> Result {
-    let text = output(root, "cargo", &["run", "--quiet", "-p", "freikugel", "--", "schema"])?;
+    let text = freikugel(root, &["schema"])?;
     let path = root.join(SCHEMA);
     std::fs::create_dir_all(path.parent().expect("a file in a folder")).map_err(|e| e.to_string())?;
     std::fs::write(&path, text).map_err(|e| format!("can't write {}: {e}", path.display()))

@@ -1,53 +1,55 @@
 //! Everything a change must pass.
 
 use crate::install::{install, runs};
-use crate::run::{Result, SCHEMA, output, root, run, run_with};
+use crate::run::{Result, SCHEMA, root, run, run_with, tested_freikugel};
 use crate::{browser, compilers, probe, reference, shapes};
 use std::process::Command;
+
+/// What all builds of the tests select. Selections that differ give libraries other features, and everything would be built anew
+/// for each of them, kernels included, which take minutes.
+const EVERYTHING: [&str; 4] = ["--workspace", "--features", "freikugel/gpu", "--locked"];
 
 /// Runs all checks, the quick ones first.
 pub(crate) fn all() -> Result {
     let root = root();
     let warnings_are_errors = [("RUSTDOCFLAGS", "-D warnings")];
     install_components()?;
+    install_graphics_software()?;
+    compilers::install()?;
+    browser::install()?;
     run(&root, "cargo", &["fmt", "--all", "--check"])?;
     shapes::check()?;
-    // The graphics processor's crate is left to a step of its own: its libraries take minutes to build.
-    let workspace = ["--workspace", "--exclude", GPU_CRATE, "--locked"];
-    run(&root, "cargo", &[&["clippy"][..], &workspace, &["--all-targets", "--", "-D", "warnings"]].concat())?;
-    run(&root, "cargo", &[&["test"][..], &workspace].concat())?;
+    lint(&EVERYTHING)?;
+    // The command without what is optional, whose tests run in the probe's workspace.
+    lint(&["-p", "freikugel", "--no-default-features", "--locked"])?;
+    run(&root, "cargo", &[&["test", "--no-fail-fast"][..], &EVERYTHING].concat())?;
+    compilers::run_tests(&EVERYTHING)?;
+    browser::run_tests(&EVERYTHING)?;
     schema_is_fresh()?;
-    reference::check()?;
-    run_with(
-        &root,
-        "cargo",
-        &["doc", "--workspace", "--all-features", "--no-deps", "--locked", "--document-private-items"],
-        &warnings_are_errors,
-    )?;
+    reference::check(&tested_freikugel)?;
+    let documentation = ["doc", "--no-deps", "--document-private-items"];
+    run_with(&root, "cargo", &[&documentation[..], &EVERYTHING].concat(), &warnings_are_errors)?;
     probe::shape()?;
-    on_graphics_processor()?;
-    compilers::test()?;
-    browser::test()?;
     install_deny()?;
     run(&root, "cargo", &["deny", "--log-level", "error", "check", "licenses", "bans", "sources"])?;
     eprintln!("xtask: all checks passed");
     Ok(())
 }
 
-/// The crate of graphics processors, and its package of software that stands in for one.
-const GPU_CRATE: &str = "freikugel-gpu";
+fn lint(selection: &[&str]) -> Result {
+    run(&root(), "cargo", &[&["clippy"][..], selection, &["--all-targets", "--", "-D", "warnings"]].concat())
+}
+
+/// The software that stands in for a graphics processor.
 const GPU_SOFTWARE: &str = "mesa-vulkan-drivers";
 
 /// Lints and tests what needs a graphics processor, or software that stands in for one.
 pub(crate) fn on_graphics_processor() -> Result {
-    let root = root();
     install_graphics_software()?;
-    let command = ["-p", "freikugel", "--features", "gpu", "--locked"];
-    run(&root, "cargo", &["clippy", "-p", GPU_CRATE, "--all-targets", "--locked", "--", "-D", "warnings"])?;
-    run(&root, "cargo", &[&["clippy"][..], &command, &["--all-targets", "--", "-D", "warnings"]].concat())?;
+    let selection = ["-p", "freikugel-gpu", "-p", "freikugel", "--features", "freikugel/gpu", "--locked"];
+    lint(&selection)?;
     // The tests of the command run with it, too: most ask nothing of a graphics processor, and must not notice it.
-    run(&root, "cargo", &["test", "-p", GPU_CRATE, "--locked"])?;
-    run(&root, "cargo", &[&["test"][..], &command].concat())
+    run(&root(), "cargo", &[&["test"][..], &selection].concat())
 }
 
 /// Pictures are compared on whatever graphics processor there is. On Debian and its kin, where none has a driver for Vulkan,
@@ -67,7 +69,7 @@ fn install_graphics_software() -> Result {
 
 fn schema_is_fresh() -> Result {
     let root = root();
-    let fresh = output(&root, "cargo", &["run", "--quiet", "--locked", "-p", "freikugel", "--", "schema"])?;
+    let fresh = tested_freikugel(&["schema"])?;
     let present = std::fs::read_to_string(root.join(SCHEMA)).map_err(|e| format!("can't read {SCHEMA}: {e}"))?;
     if fresh == present { Ok(()) } else { Err(format!("{SCHEMA} is out of date; run `cargo xtask schema`")) }
 }
@@ -92,6 +94,7 @@ fn install_deny() -> Result {
     if has("deny") {
         return Ok(());
     }
+    // Unoptimised, since it runs for a second and is built for minutes.
     eprintln!("xtask: installing cargo-deny into cargo's own folder (some minutes, once)");
-    run(&root(), "cargo", &["install", "cargo-deny", "--locked"])
+    run(&root(), "cargo", &["install", "cargo-deny", "--locked", "--debug"])
 }
