@@ -4,12 +4,15 @@
 //! graph is turned into shader text (by the crate of shaders) or evaluated ([`Graph::evaluate`]), which the tests compare with
 //! the direct computation. A loop ([`Scalar::iterate`]) becomes one [`Loop`] whose body are the terms that depend on its state.
 
-use crate::scalar::{Constants, Scalar};
+use crate::scalar::{Constants, Scalar, Tree};
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 mod gradient;
+mod search;
+
+use search::TreeSearch;
 
 /// An operation with one operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -56,6 +59,8 @@ pub enum Term {
     Slot(u32),
     /// Inside a loop over rows of constants: entry `.1` of the first row, in later rows as much farther on.
     RowSlot(u32, u32),
+    /// The entry of the table of constants that is this number of entries (a whole number, not negative) after the first one.
+    Entry(u32, u32),
     /// A number, as its bits.
     Literal(u64),
     /// An operation with one operand.
@@ -144,6 +149,35 @@ impl Graph {
         (loops.len() - 1) as u32
     }
 
+    /// Records a loop; see [`Scalar::iterate`].
+    fn repeat<'g, const N: usize>(
+        &'g self,
+        limit: u32,
+        start: [Expr<'g>; N],
+        step: impl FnOnce([Expr<'g>; N]) -> ([Expr<'g>; N], Condition<'g>),
+    ) -> [Expr<'g>; N] {
+        let this = self.begin_loop(limit, None, start.iter().map(|s| s.id).collect());
+        let (next, go_on) = step(self.spread(|place| Term::State(this, place)));
+        self.end_loop(this, next.iter().map(|s| s.id).collect(), Some(go_on.0.id));
+        self.spread(|place| Term::Result(this, place))
+    }
+
+    /// Records a loop whose state has one number more, which comes first.
+    fn repeat_with<'g, const N: usize>(
+        &'g self,
+        limit: u32,
+        first: Expr<'g>,
+        start: [Expr<'g>; N],
+        step: impl FnOnce(Expr<'g>, [Expr<'g>; N]) -> (Expr<'g>, [Expr<'g>; N], Condition<'g>),
+    ) -> (Expr<'g>, [Expr<'g>; N]) {
+        let ids = |first: Expr<'g>, others: [Expr<'g>; N]| [first].iter().chain(&others).map(|s| s.id).collect();
+        let this = self.begin_loop(limit, None, ids(first, start));
+        let state = (self.term(Term::State(this, 0)), self.spread(|place| Term::State(this, place + 1)));
+        let (first, others, go_on) = step(state.0, state.1);
+        self.end_loop(this, ids(first, others), Some(go_on.0.id));
+        (self.term(Term::Result(this, 0)), self.spread(|place| Term::Result(this, place + 1)))
+    }
+
     /// The numbers of a state or a result.
     fn spread<const N: usize>(&self, term: impl Fn(u32) -> Term) -> [Expr<'_>; N] {
         let mut place = 0;
@@ -186,7 +220,7 @@ impl Graph {
             };
             let owner = match *term {
                 Term::Input(_) | Term::Slot(_) | Term::Literal(_) => None,
-                Term::Unary(_, a) => deepest(&[a], &owners, &parents),
+                Term::Unary(_, a) | Term::Entry(_, a) => deepest(&[a], &owners, &parents),
                 Term::Binary(_, a, b) | Term::Length(a, b, None) => deepest(&[a, b], &owners, &parents),
                 Term::Select(a, b, c) | Term::Length(a, b, Some(c)) => deepest(&[a, b, c], &owners, &parents),
                 Term::State(l, _) | Term::RowSlot(l, _) => {
@@ -234,6 +268,7 @@ impl Run<'_> {
             let value = match *term {
                 Term::Input(axis) => self.point[axis as usize],
                 Term::Slot(slot) => self.slots[slot as usize],
+                Term::Entry(slot, index) => self.slots[slot as usize + v(index) as usize],
                 Term::Literal(bits) => f64::from_bits(bits),
                 Term::Unary(op, a) => match op {
                     Unary::Neg => -v(a),
@@ -336,14 +371,25 @@ pub struct Condition<'g>(Expr<'g>);
 #[derive(Clone, Copy, Debug)]
 pub struct Slots {
     first: u32,
-    /// The loop in whose rows they are.
-    row_of: Option<u32>,
+    /// What places them elsewhere at run time.
+    moved: Moved,
+}
+
+/// How constants lie elsewhere than their slots say.
+#[derive(Clone, Copy, Debug)]
+enum Moved {
+    /// Not at all.
+    No,
+    /// In the rows of this loop.
+    ByLoop(u32),
+    /// Farther on by this number.
+    By(u32),
 }
 
 impl Slots {
     /// At this place.
     pub fn at(first: u32) -> Self {
-        Self { first, row_of: None }
+        Self { first, moved: Moved::No }
     }
 }
 
@@ -459,9 +505,10 @@ impl<'g> Scalar for Expr<'g> {
 
     fn constant(self, table: &Slots, index: usize) -> Self {
         let slot = table.first + index as u32;
-        self.graph.term(match table.row_of {
-            Some(this) => Term::RowSlot(this, slot),
-            None => Term::Slot(slot),
+        self.graph.term(match table.moved {
+            Moved::ByLoop(this) => Term::RowSlot(this, slot),
+            Moved::By(index) => Term::Entry(slot, index),
+            Moved::No => Term::Slot(slot),
         })
     }
 
@@ -556,11 +603,7 @@ impl<'g> Scalar for Expr<'g> {
         let Some(first) = state.first() else {
             return state;
         };
-        let graph = first.graph;
-        let this = graph.begin_loop(limit, None, state.iter().map(|s| s.id).collect());
-        let (next, go_on) = step(graph.spread(|place| Term::State(this, place)));
-        graph.end_loop(this, next.iter().map(|s| s.id).collect(), Some(go_on.0.id));
-        graph.spread(|place| Term::Result(this, place))
+        first.graph.repeat(limit, state, step)
     }
 
     fn fold_rows<const N: usize>(
@@ -574,10 +617,30 @@ impl<'g> Scalar for Expr<'g> {
         };
         let graph = first.graph;
         let this = graph.begin_loop(rows as u32, Some(width as u32), state.iter().map(|s| s.id).collect());
-        let slots = Slots { first: constants.place(), row_of: Some(this) };
+        let slots = Slots { first: constants.place(), moved: Moved::ByLoop(this) };
         let row = Constants::new(*first, &slots, width);
         let next = step(graph.spread(|place| Term::State(this, place)), &row);
         graph.end_loop(this, next.iter().map(|s| s.id).collect(), None);
         graph.spread(|place| Term::Result(this, place))
+    }
+
+    fn fold_tree<const N: usize>(
+        constants: &Constants<'_, Self>,
+        tree: Tree,
+        state: [Self; N],
+        bound: impl Fn(&Constants<'_, Self>) -> Self,
+        step: impl Fn([Self; N], &Constants<'_, Self>) -> [Self; N],
+    ) -> [Self; N] {
+        TreeSearch::new(constants, tree, bound, step).all(state)
+    }
+
+    fn fold_leaf<const N: usize>(
+        constants: &Constants<'_, Self>,
+        tree: Tree,
+        state: [Self; N],
+        bound: impl Fn(&Constants<'_, Self>) -> Self,
+        step: impl Fn([Self; N], &Constants<'_, Self>) -> [Self; N],
+    ) -> [Self; N] {
+        TreeSearch::new(constants, tree, bound, step).near(state)
     }
 }

@@ -52,6 +52,7 @@ pub mod nearest;
 mod operands;
 mod operation;
 pub mod outline;
+mod point_tree;
 pub mod program;
 mod prune;
 pub mod ray;

@@ -258,6 +258,105 @@ pub trait Scalar:
         }
         state
     }
+
+    /// Applies `step` to `state` for the rows in the leaves of a tree, in order, but may pass over those below a node whose `bound`
+    /// is not below `state[0]`: there the step may not change anything.
+    ///
+    /// Write both functions as `#[inline(always)] |...| ...`: what is not inlined loses the instruction set.
+    #[inline(always)]
+    fn fold_tree<const N: usize>(
+        constants: &Constants<'_, Self>,
+        tree: Tree,
+        mut state: [Self; N],
+        bound: impl Fn(&Constants<'_, Self>) -> Self,
+        step: impl Fn([Self; N], &Constants<'_, Self>) -> [Self; N],
+    ) -> [Self; N] {
+        let leaves = tree.leaves(constants.count());
+        let mut node = 1;
+        loop {
+            if Self::any(bound(&tree.node_of(constants, node)).lt(state[0])) {
+                if node < leaves {
+                    node *= 2;
+                    continue;
+                }
+                let mut row = 0;
+                while row < tree.leaf {
+                    state = step(state, &tree.row_of(constants, node, row));
+                    row += 1;
+                }
+            }
+            // What follows all below this node: its sibling, or that of the nearest node above that is a left one.
+            node += 1;
+            node >>= node.trailing_zeros();
+            if node == 1 {
+                return state;
+            }
+        }
+    }
+
+    /// Applies `step` to `state` for the rows of one leaf of a tree: where bounds are low, as far as one can see from above.
+    ///
+    /// Write both functions as `#[inline(always)] |...| ...`: what is not inlined loses the instruction set.
+    #[inline(always)]
+    fn fold_leaf<const N: usize>(
+        constants: &Constants<'_, Self>,
+        tree: Tree,
+        mut state: [Self; N],
+        bound: impl Fn(&Constants<'_, Self>) -> Self,
+        step: impl Fn([Self; N], &Constants<'_, Self>) -> [Self; N],
+    ) -> [Self; N] {
+        let leaves = tree.leaves(constants.count());
+        let mut node = 1;
+        while node < leaves {
+            let [left, right] = [2 * node, 2 * node + 1].map(
+                #[inline(always)]
+                |node| bound(&tree.node_of(constants, node)),
+            );
+            node = 2 * node + usize::from(Self::any(right.lt(left)));
+        }
+        let mut row = 0;
+        while row < tree.leaf {
+            state = step(state, &tree.row_of(constants, node, row));
+            row += 1;
+        }
+        state
+    }
+}
+
+/// How a complete binary tree lies among constants. Its `n` leaves are the nodes `n` to `2 n - 1`; below node `i` before them are
+/// `2 i` and `2 i + 1`. The constants of the nodes come first, in order, in the place of node 0 (which is none) what else the
+/// formula needs, and then the rows of each leaf.
+#[derive(Clone, Copy, Debug)]
+pub struct Tree {
+    /// How many constants a node has.
+    pub node: usize,
+    /// How many constants a row in a leaf has.
+    pub row: usize,
+    /// How many rows a leaf has.
+    pub leaf: usize,
+}
+
+impl Tree {
+    /// Which constant is the number of leaves, for those who can't count constants.
+    pub const LEAVES: usize = 0;
+
+    /// How many leaves a tree has that takes so many constants.
+    #[inline(always)]
+    pub fn leaves(self, constants: usize) -> usize {
+        constants / (2 * self.node + self.leaf * self.row)
+    }
+
+    #[inline(always)]
+    fn node_of<'t, S: Scalar>(self, constants: &Constants<'t, S>, node: usize) -> Constants<'t, S> {
+        constants.part(self.node * node, self.node)
+    }
+
+    #[inline(always)]
+    fn row_of<'t, S: Scalar>(self, constants: &Constants<'t, S>, node: usize, row: usize) -> Constants<'t, S> {
+        let leaves = self.leaves(constants.count());
+        let before = (node - leaves) * self.leaf + row;
+        constants.part(2 * leaves * self.node + before * self.row, self.row)
+    }
 }
 
 /// `x^n`, or nothing for `n = 0`.

@@ -74,6 +74,7 @@ pub mod parabola;
 pub mod parallelogram;
 pub mod pipe;
 pub mod plane;
+pub mod point_set;
 pub mod polygon;
 pub mod polyline;
 mod polynomial;
@@ -109,6 +110,7 @@ pub mod shell;
 pub mod slab;
 pub mod smooth_difference;
 pub mod smooth_intersection;
+pub mod smooth_point_set;
 pub mod smooth_union;
 pub mod solid_angle;
 pub mod sphere;
@@ -213,6 +215,7 @@ pub use parabola::*;
 pub use parallelogram::*;
 pub use pipe::*;
 pub use plane::*;
+pub use point_set::*;
 pub use polygon::*;
 pub use polyline::*;
 pub use pyramid::*;
@@ -246,6 +249,7 @@ pub use shell::*;
 pub use slab::*;
 pub use smooth_difference::*;
 pub use smooth_intersection::*;
+pub use smooth_point_set::*;
 pub use smooth_union::*;
 pub use solid_angle::*;
 pub use sphere::*;
@@ -361,6 +365,7 @@ pub static ALL: &[&Shape] = &[
     &PARALLELOGRAM,
     &PIPE,
     &PLANE,
+    &POINT_SET,
     &POLYGON,
     &POLYLINE,
     &PYRAMID,
@@ -398,6 +403,7 @@ pub static ALL: &[&Shape] = &[
     &SLAB,
     &SMOOTH_DIFFERENCE,
     &SMOOTH_INTERSECTION,
+    &SMOOTH_POINT_SET,
     &SMOOTH_UNION,
     &SOLID_ANGLE,
     &SPHERE,

@@ -66,7 +66,7 @@ impl Uses {
             let mut read = |id: u32| pending.push((id, Some(owners[own])));
             match terms[own] {
                 Term::Input(_) | Term::Slot(_) | Term::Literal(_) => {}
-                Term::Unary(_, a) => read(a),
+                Term::Unary(_, a) | Term::Entry(_, a) => read(a),
                 Term::Binary(_, a, b) | Term::Length(a, b, None) => [a, b].into_iter().for_each(read),
                 Term::Length(a, b, Some(c)) | Term::Select(a, b, c) => [a, b, c].into_iter().for_each(read),
                 // The loop itself stands there as soon as one of its results is read.
@@ -187,6 +187,14 @@ impl Writer<'_> {
         body.push(Statement::Count(counter(l), Expr::Int(0), limit, inner));
     }
 
+    /// An entry of the table so many places after a slot.
+    fn moved_slot(&self, slot: u32, places: Expr) -> Expr {
+        match self.table.slot(slot as usize) {
+            Expr::Parameter(place) => Expr::Parameter(Box::new(*place + places)),
+            _ => unreachable!("lists are read from the table"),
+        }
+    }
+
     fn operand(&self, id: u32) -> Expr {
         match &self.written[id as usize] {
             Some(expr) => expr.clone(),
@@ -205,14 +213,9 @@ impl Writer<'_> {
             Term::Slot(slot) => self.table.slot(slot as usize),
             Term::RowSlot(l, slot) => {
                 let width = self.loops[l as usize].row.unwrap_or(0);
-                match self.table.slot(slot as usize) {
-                    Expr::Parameter(place) => {
-                        let row = Expr::Name(counter(l)) * Expr::Int(width.into());
-                        Expr::Parameter(Box::new(*place + row))
-                    }
-                    _ => unreachable!("lists are read from the table"),
-                }
+                self.moved_slot(slot, Expr::Name(counter(l)) * Expr::Int(width.into()))
             }
+            Term::Entry(slot, index) => self.moved_slot(slot, Expr::Make(Type::Int, vec![self.operand(index)])),
             Term::Literal(bits) => Expr::Float(f64::from_bits(bits) as f32),
             Term::State(l, place) | Term::Result(l, place) => Expr::Name(state(l, place as usize)),
             Term::Unary(op, a) => {

@@ -22,8 +22,8 @@ pub(crate) struct Helpers {
     pub(crate) names: Names,
     pub(crate) functions: Vec<Function>,
     known: HashMap<String, Known>,
-    /// What [`rows`] found for shapes of these names with so many constants.
-    rows: HashMap<(&'static str, usize), Option<usize>>,
+    /// What was found for shapes of these names with so many constants.
+    lists: HashMap<(&'static str, usize), List>,
 }
 
 /// A function that is there: its name, and which constants it takes.
@@ -103,7 +103,7 @@ enum Passing {
 
 impl Helpers {
     pub(crate) fn new(names: Names) -> Self {
-        Self { names, functions: Vec::new(), known: HashMap::new(), rows: HashMap::new() }
+        Self { names, functions: Vec::new(), known: HashMap::new(), lists: HashMap::new() }
     }
 
     /// The function that was defined under a key.
@@ -395,26 +395,40 @@ impl Helpers {
     /// How a shape's constants are passed, and what tells its functions apart: lists have any number of constants.
     fn passing(&mut self, shape: &'static Shape, count: usize, suffix: &str) -> (Passing, String) {
         let name = shape.about.name;
-        let names = constant_names(shape, count);
         let key = if suffix.is_empty() { name.to_owned() } else { format!("{name}_{suffix}") };
-        let rows = *self.rows.entry((name, count)).or_insert_with(|| rows(shape, count));
-        match (rows, count) {
-            (Some(rows), _) => (Passing::Rows(rows), key),
-            (None, 0..=MOST_ARGUMENTS) => (Passing::Each(names), key),
-            (None, _) => (Passing::First, format!("{key}_{count}")),
+        let list = *self.lists.entry((name, count)).or_insert_with(|| List::of(shape, count));
+        match (list, count) {
+            (List::Rows(rows), _) => (Passing::Rows(rows), key),
+            (List::Tree, _) => (Passing::First, key),
+            (List::None, 0..=MOST_ARGUMENTS) => (Passing::Each(constant_names(shape, count)), key),
+            (List::None, _) => (Passing::First, format!("{key}_{count}")),
         }
     }
 }
 
-/// How many rows a primitive's constants are, if it goes through all of them row by row and does nothing else.
-fn rows(shape: &Shape, count: usize) -> Option<usize> {
-    let table = shape.distance()?;
-    let graph = Graph::new();
-    let point: [expr::Expr<'_>; 3] = graph.point();
-    (table.kernels.expr)(point.into(), &Constants::new(point[0], &Slots::at(0), count));
-    match graph.loops().as_slice() {
-        [only] => only.row.map(|_| only.limit as usize),
-        _ => None,
+/// What of a primitive's constants differs in number, so that one function serves any number of them.
+#[derive(Clone, Copy, Debug)]
+enum List {
+    None,
+    /// So many rows, if the formula goes through all of them row by row and does nothing else.
+    Rows(usize),
+    /// The leaves of a tree, which itself says how many there are.
+    Tree,
+}
+
+impl List {
+    fn of(shape: &Shape, count: usize) -> Self {
+        let Some(table) = shape.distance() else { return Self::None };
+        let graph = Graph::new();
+        let point: [expr::Expr<'_>; 3] = graph.point();
+        (table.kernels.expr)(point.into(), &Constants::new(point[0], &Slots::at(0), count));
+        if graph.terms().iter().any(|term| matches!(term, expr::Term::Entry(..))) {
+            return Self::Tree;
+        }
+        match graph.loops().as_slice() {
+            [only] if only.row.is_some() => Self::Rows(only.limit as usize),
+            _ => Self::None,
+        }
     }
 }
 

@@ -102,6 +102,10 @@ impl<'g, const N: usize> Again<'g, N> {
                 let like = self.into.input(0);
                 Done::Number(Dual::independent(like.constant(&Slots::at(slot), 0)))
             }
+            Term::Entry(slot, index) => {
+                let index = self.number(index).value.id;
+                Done::Number(Dual::independent(self.into.term(Term::Entry(slot, index))))
+            }
             Term::Literal(bits) => Done::Number(Dual::independent(self.into.input(0).lift(f64::from_bits(bits)))),
             Term::Unary(Unary::Not, a) => Done::Condition(!self.condition(a)),
             Term::Unary(op, a) => Done::Number(one(op, self.number(a))),

@@ -1,4 +1,4 @@
-//! Copies at given points: a union, so that it is right for shapes of any size and place. Of spheres, a set of points.
+//! Copies at given points: a union, so that it is right for shapes of any size and place.
 
 use super::translate::TRANSLATE;
 use crate::shape_prelude::*;
@@ -25,9 +25,9 @@ impl<F: Into<Field>> Scatter for F {}
 impl Copies for Scattered {
     const ABOUT: About = About {
         name: "scatter",
-        summary: "Copies of a shape at given points. Of spheres, it is a set of points that are seen.",
+        summary: "Copies of a shape at given points. Many equal balls are a `point_set`.",
         params: &[Param::required("points", ParamKind::Points3, "Where the copies have their origins.")],
-        elsewhere: &["point_set", "point cloud", "instances", "copy to points"],
+        elsewhere: &["instances", "copy to points"],
         example: r#"{ "scatter": { "points": [[-0.8, -0.6, -0.2], [-0.5, 0.5, 0.3], [0, -0.1, 0], [0.5, 0.6, -0.3], [0.8, -0.4, 0.4]],
             "shape": { "sphere": { "radius": 0.3 } } } }"#,
     };

@@ -337,6 +337,13 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
                 least(at) < 0.0
             })
         }
+        ("point_set", [radius, points @ ..]) => {
+            points.chunks_exact(3).any(|c| p.distance(DVec3::from_slice(c)) < *radius)
+        }
+        ("smooth_point_set", [radius, k, points @ ..]) => {
+            let depth = |c: &[f64]| (radius + k - p.distance(DVec3::from_slice(c))).max(0.0);
+            points.chunks_exact(3).map(|c| depth(c).powi(2)).sum::<f64>() > k * k
+        }
         ("polyline", [width, closed, points @ ..]) => {
             let points: Vec<DVec3> = points.chunks_exact(2).map(|c| DVec3::new(c[0], c[1], 0.0)).collect();
             near_line(&points, *closed == 1.0, DVec3::new(p.x, p.y, 0.0), width / 2.0)
