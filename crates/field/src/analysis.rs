@@ -8,7 +8,7 @@ use crate::contract::{Aabb, Contract, Dimension, Extent};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::field::{Field, Node};
 use crate::shape::{Arity, Hull, Kind};
-use crate::shapes::{self, displace, formula, loft, twist, warp};
+use crate::shapes::{self, displace, formula, loft, perimeter_sweep, twist, warp};
 use glam::{DAffine3, DMat3, DVec3};
 
 /// The deepest nesting a field may have; deeper ones would exhaust the stack of a small thread.
@@ -60,6 +60,11 @@ pub fn analyse(field: &Field) -> (Option<Analysis>, Vec<Diagnostic>) {
         primitives: walk.primitives,
     });
     (analysis, walk.diagnostics)
+}
+
+/// The contract of a field, if it is sound: what [`analyse`] says of it, without the extent.
+pub(crate) fn contract(field: &Field) -> Option<Contract> {
+    Walk::default().visit(field)
 }
 
 /// As [`analyse`], for what stands side by side in one scene: plane figures are an error among bodies.
@@ -249,12 +254,13 @@ impl Walk {
                     Err(fault) => self.error(node, None, fault),
                 }
             }
-            Kind::Loft => {
+            Kind::Loft | Kind::PerimeterSweep => {
                 let figures: Vec<Contract> = children.into_iter().collect::<Option<_>>()?;
                 if figures.iter().any(|figure| figure.dimension != Dimension::Plane) {
                     return self.error(node, None, format!("`{name}` takes plane figures, not bodies"));
                 }
-                match loft::contract(&figures) {
+                let is_loft = matches!(node.shape.kind, Kind::Loft);
+                match if is_loft { loft::contract(&figures) } else { perimeter_sweep::contract(&figures) } {
                     Ok(contract) => Some(Contract { dimension: Dimension::Space, ..contract }),
                     Err(fault) => self.error(node, None, fault),
                 }
@@ -406,6 +412,7 @@ pub(crate) fn support(field: &Field, direction: DVec3, level: f64) -> f64 {
             (fold.support)(&args, direction, &reach)
         }
         Kind::Loft => loft::support(node, direction, level),
+        Kind::PerimeterSweep => perimeter_sweep::support(node, direction, level),
         Kind::Modify(table) => match (table.level)(&args, level) {
             Some(level) => support(&node.children[0], direction, level),
             None => f64::INFINITY,

@@ -55,6 +55,8 @@ struct Compiler {
     fixed: BTreeSet<usize>,
     /// The object that is being compiled.
     object: usize,
+    /// Whether what is being compiled is a measure for something else, and no surface.
+    is_measure: bool,
 }
 
 /// The space a node is evaluated in: a point, and the maps that still lie between it and the node.
@@ -225,6 +227,16 @@ impl Compiler {
                 let value = self.push(Step::Altered { op: Binary::Max, from: value, by });
                 self.joined(before, value)
             }
+            Kind::PerimeterSweep => {
+                let (space, at) = self.settled(space);
+                let distance = self.as_measure(|compiler| compiler.emit(&tree.children[0], &space, None, None));
+                let zero = self.derived(1, |out| Derive::Literals { numbers: vec![0.0], out }).start() as u32;
+                let zero = self.push(Step::Literal { constant: zero });
+                let height = self.push(Step::Coordinate { point: space.point, axis: 2, at });
+                let point = self.push(Step::Warp { x: distance, y: height, z: zero });
+                let value = self.emit(&tree.children[1], &Space { point, chain: Vec::new() }, material, None);
+                self.joined(before, value)
+            }
             Kind::Endless { fold, .. } => {
                 let (space, at) = self.settled(space);
                 let value = self.repeated(tree, fold, &space, at, material);
@@ -319,6 +331,14 @@ impl Compiler {
         let table = shape.distance().expect("it is a distance");
         let slope = self.derived(1, |out| Derive::Literals { numbers: vec![1.0], out }).start() as u32;
         self.push(Step::Primitive { table, point, at, constants, slope, region: NO_REGION })
+    }
+
+    /// Emits something that changes other values, and is itself no surface.
+    fn as_measure<R>(&mut self, emit: impl FnOnce(&mut Self) -> R) -> R {
+        let before = std::mem::replace(&mut self.is_measure, true);
+        let result = emit(self);
+        self.is_measure = before;
+        result
     }
 
     /// Emits the point turned back by the angle of a twist.
@@ -459,6 +479,9 @@ impl Compiler {
     }
 
     fn region(&mut self, region: Region) -> u32 {
+        if self.is_measure {
+            return NO_REGION;
+        }
         *self.region_index.entry(region).or_insert_with(|| {
             self.regions.push(region);
             u32::try_from(self.regions.len() - 1).expect("less than 2^32 regions")
@@ -478,6 +501,7 @@ pub(crate) fn can_fold(node: &Node) -> bool {
         Kind::Map(_)
         | Kind::Product(_)
         | Kind::Loft
+        | Kind::PerimeterSweep
         | Kind::Endless { .. }
         | Kind::Formula
         | Kind::Warp

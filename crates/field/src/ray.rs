@@ -31,6 +31,7 @@ impl ExactRay {
                 | Kind::Modify(_)
                 | Kind::Product(_)
                 | Kind::Loft
+                | Kind::PerimeterSweep
                 | Kind::Copies(_)
                 | Kind::Endless { .. }
                 | Kind::Formula

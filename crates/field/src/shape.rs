@@ -59,6 +59,8 @@ pub enum Kind {
     Product(ProductTable),
     /// Makes a body whose cross-section goes from one figure to the next.
     Loft,
+    /// Makes a body of one figure that moves along the outline of another.
+    PerimeterSweep,
     /// Repeats its child without end.
     Endless {
         /// Where each copy is looked up.
@@ -166,7 +168,7 @@ impl Shape {
     pub fn arity(&self) -> Arity {
         match self.kind {
             Kind::Primitive(_) | Kind::Formula => Arity::None,
-            Kind::Combine(_) | Kind::Loft => Arity::Many,
+            Kind::Combine(_) | Kind::Loft | Kind::PerimeterSweep => Arity::Many,
             Kind::Place(_)
             | Kind::Map(_)
             | Kind::Modify(_)

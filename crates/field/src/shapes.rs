@@ -72,6 +72,7 @@ pub mod outline;
 pub mod paint;
 pub mod parabola;
 pub mod parallelogram;
+pub mod perimeter_sweep;
 pub mod pipe;
 pub mod plane;
 pub mod point_set;
@@ -213,6 +214,7 @@ pub use outline::*;
 pub use paint::*;
 pub use parabola::*;
 pub use parallelogram::*;
+pub use perimeter_sweep::*;
 pub use pipe::*;
 pub use plane::*;
 pub use point_set::*;
@@ -363,6 +365,7 @@ pub static ALL: &[&Shape] = &[
     &PAINT,
     &PARABOLA,
     &PARALLELOGRAM,
+    &PERIMETER_SWEEP,
     &PIPE,
     &PLANE,
     &POINT_SET,

@@ -113,6 +113,7 @@ fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
         Kind::Place(_)
         | Kind::Copies(_)
         | Kind::Loft
+        | Kind::PerimeterSweep
         | Kind::Paint
         | Kind::Formula
         | Kind::Warp

@@ -280,8 +280,10 @@ fn shapes_may_stand_alone_as_a_list_where_the_help_says_so() {
     for shape in freikugel::field::shapes::ALL.iter().filter(|shape| shape.arity() == freikugel::field::Arity::Many) {
         let name = shape.about.name;
         let says_so = stdout(&folder.run(&["help", "shapes", name])).contains("they may stand alone as a list");
-        let ball = r#"{ "sphere": { "radius": 1 } }"#;
-        let scene = format!(r#"{{ "objects": [ {{ "shape": {{ "{name}": [ {ball}, {ball} ] }} }} ] }}"#);
+        let takes_figures = matches!(shape.kind, freikugel::field::Kind::Loft | freikugel::field::Kind::PerimeterSweep);
+        let round = if takes_figures { "circle" } else { "sphere" };
+        let child = format!(r#"{{ "{round}": {{ "radius": 1 }} }}"#);
+        let scene = format!(r#"{{ "objects": [ {{ "shape": {{ "{name}": [ {child}, {child} ] }} }} ] }}"#);
         folder.write("alone.json", scene);
         assert_eq!(code(&folder.run(&["check", "alone.json"])) == 0, says_so, "{name}");
         counts[usize::from(says_so)] += 1;

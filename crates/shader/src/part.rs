@@ -381,6 +381,9 @@ impl<'a> Walk<'a> {
     }
 
     fn warp(&mut self, index: usize, from: [usize; 3]) {
+        if from.iter().any(|&step| !self.is_formula[step]) {
+            return self.warp_by_values(index, from);
+        }
         let (point, at) = self.space(&from);
         let graph = Graph::new();
         let results = self.record(&graph, &from);
@@ -402,6 +405,23 @@ impl<'a> Walk<'a> {
             self.maps[index] = Some((point, map));
         }
         self.set_point(index, Expr::call(name, [at]));
+    }
+
+    /// A point whose coordinates are values of other steps, which change with the first point of all.
+    fn warp_by_values(&mut self, index: usize, from: [usize; 3]) {
+        let values = from.map(|step| self.read(step));
+        let all = |member: &str| Expr::vector(values.iter().map(|value| value.clone().member(member)));
+        let point = match self.want {
+            Want::Value => Expr::vector(values.iter().cloned()),
+            Want::Gradient => {
+                let first = self.part.outline.steps.iter().position(|action| matches!(action, Action::Point));
+                let columns = ["x", "y", "z"].map(all).into();
+                let map = self.bind("bend", Type::Matrix, Expr::Make(Type::Matrix, columns));
+                self.maps[index] = Some((first.expect("values are those at points"), map));
+                all("w")
+            }
+        };
+        self.set_point(index, point);
     }
 
     /// The point that formulas are about, and what is subtracted from it.

@@ -212,6 +212,7 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
             }
             contains(children.next()?, q)?
         }
+        ("perimeter_sweep", _) => return None,
         ("revolve_part", [angle, offset]) => {
             p.y.atan2(p.x).abs() < angle / 2.0 && contains(children.next()?, DVec3::new(across - offset, p.z, 0.0))?
         }

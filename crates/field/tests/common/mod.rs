@@ -179,7 +179,7 @@ fn call_over(
     child: impl Fn(Dimension, &mut Random) -> Field,
 ) -> Field {
     let children_in = match &shape.kind {
-        Kind::Product(_) | Kind::Loft => Dimension::Plane,
+        Kind::Product(_) | Kind::Loft | Kind::PerimeterSweep => Dimension::Plane,
         Kind::Map(table) if !table.is_planar => table.takes,
         _ => dimension,
     };
@@ -240,7 +240,7 @@ pub(crate) fn is_measured(shape: &Shape) -> bool {
 fn can_be(shape: &Shape, dimension: Dimension) -> bool {
     match (&shape.kind, dimension) {
         (Kind::Primitive(table), _) => table.dimension == dimension,
-        (Kind::Product(_), _) => dimension == Dimension::Space,
+        (Kind::Product(_) | Kind::PerimeterSweep, _) => dimension == Dimension::Space,
         (Kind::Map(table), _) => table.gives == dimension || table.is_planar,
         (Kind::Copies(_), Dimension::Plane) => shape.about.name == "repeat",
         (Kind::Place(_), Dimension::Plane) => ["scale", "stretch"].contains(&shape.about.name),

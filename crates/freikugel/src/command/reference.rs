@@ -42,7 +42,7 @@ const GROUPS: [Group; 6] = [
         matches!(shape.kind, Kind::Combine(_))
     }),
     ("From the plane to space, and back", "A figure becomes a body, or a body a figure.", |shape| {
-        matches!(&shape.kind, Kind::Product(_) | Kind::Loft)
+        matches!(&shape.kind, Kind::Product(_) | Kind::Loft | Kind::PerimeterSweep)
             || matches!(&shape.kind, Kind::Map(table) if table.takes != table.gives)
     }),
     ("Places and maps of space", "They move, turn, bend, fold or repeat what they are given.", |shape| {
