@@ -274,5 +274,6 @@ fn operation(c: &mut Context, term: Term, nodes: &[Node], slots: &[f64]) -> Resu
         }
         Term::Select(condition, yes, no) => c.if_nonzero_else(n(condition), n(yes), n(no)),
         Term::State(..) | Term::RowSlot(..) | Term::Result(..) => unreachable!("there are no loops"),
+        Term::Entry(..) => unreachable!("there are no trees"),
     }
 }
