@@ -54,6 +54,10 @@ fn steps_read_only_what_comes_before_them() {
                 Action::Altered { from, by, .. } => (vec![*from, *by], 0..0),
                 Action::Modify { from, constants, .. } => (vec![*from], constants.clone()),
                 Action::Scale { from, factor } => (vec![*from], *factor..factor + 1),
+                // Points whose coordinates are values: perimeter sweeps make some.
+                Action::Coordinate { point, at, .. } => (vec![*point], *at..at + 3),
+                Action::Literal { constant } => (vec![], *constant..constant + 1),
+                Action::Warp { from } => (from.to_vec(), 0..0),
                 other => panic!("{name} {seed}: {other:?} is of formulas"),
             };
             assert!(operands.iter().all(|&operand| operand < index), "{name} {seed} {action:?}");
