@@ -18,8 +18,9 @@ use std::ops::Range;
 const FORMULA_AXIS: usize = 2;
 
 /// The steps for the union of `objects`, which are sound, and the numbers of the trees in the order of their slots.
-pub(crate) fn compile(objects: &[Field]) -> (Code, Steps, Vec<f64>) {
-    let mut compiler = Compiler::default();
+/// Lists that fall into parts become several steps if they are `divided`.
+pub(crate) fn compile(objects: &[Field], divided: bool) -> (Code, Steps, Vec<f64>) {
+    let mut compiler = Compiler { divides: divided, ..Compiler::default() };
     let trees: Vec<Slotted<'_>> = objects.iter().map(|object| compiler.slots(object)).collect();
     let result = compiler.emit_objects(&trees);
     let code = Code {
@@ -55,6 +56,8 @@ struct Compiler {
     fixed: BTreeSet<usize>,
     /// The object that is being compiled.
     object: usize,
+    /// Whether lists that fall into parts become several steps.
+    divides: bool,
     /// Whether what is being compiled is a measure for something else, and no surface.
     is_measure: bool,
 }
@@ -455,6 +458,9 @@ impl Compiler {
 
     /// The constants of each part of a primitive.
     fn parts(&mut self, table: &'static PrimitiveTable, args: &Range<usize>, constants: Run) -> Vec<Run> {
+        if !self.divides {
+            return vec![constants];
+        }
         let parts = (table.parts)(&self.values[args.clone()]);
         if parts.len() < 2 {
             return vec![constants];

@@ -32,8 +32,21 @@ impl Structure {
     /// # Errors
     /// All errors of the fields, and their warnings. A program of no objects is no error; its value is infinite.
     pub fn compile(objects: &[Field]) -> Result<Self, Vec<Diagnostic>> {
+        Self::new(objects, true)
+    }
+
+    /// The same, but each list is one step, even if it falls into parts of which boxes of space would keep the near ones: for those
+    /// who have no such boxes, and would write out each step.
+    ///
+    /// # Errors
+    /// As [`Structure::compile`].
+    pub fn compile_undivided(objects: &[Field]) -> Result<Self, Vec<Diagnostic>> {
+        Self::new(objects, false)
+    }
+
+    fn new(objects: &[Field], divided: bool) -> Result<Self, Vec<Diagnostic>> {
         let (lipschitz, warnings) = lipschitz_of_union(objects)?;
-        let (code, steps, values) = compile(objects);
+        let (code, steps, values) = compile(objects, divided);
         let whole = Arc::new(Part::new(steps));
         Ok(Self {
             code: Arc::new(code),

@@ -378,7 +378,7 @@ pub(crate) fn plan(scene: &Scene) -> Result<Plan, ShaderError> {
 }
 
 fn compiled(field: &Field) -> Result<Structure, ShaderError> {
-    Structure::compile(std::slice::from_ref(field)).map_err(ShaderError::Fields)
+    Structure::compile_undivided(std::slice::from_ref(field)).map_err(ShaderError::Fields)
 }
 
 /// The planes of a scene.
