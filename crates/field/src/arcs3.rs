@@ -69,6 +69,9 @@ const SAME_WAY: f64 = 1e-9;
 /// How many constants an arc has; see [`Arc3::constants`].
 pub(crate) const ROW: usize = 13;
 
+/// Where half the length of the chord stands among them, after which come sine, cosine, and radius.
+pub(crate) const HALF: usize = 9;
+
 /// An arc from point to point that starts in a direction, of length 1; a straight edge if that is the direction of the other point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arc3 {
@@ -171,7 +174,7 @@ impl Arc3 {
 /// The largest of `direction . p` over the points of an arc with these constants.
 pub(crate) fn reach(row: &[f64], direction: DVec3) -> f64 {
     let (middle, along, across) = (DVec3::from_slice(row), DVec3::from_slice(&row[3..]), DVec3::from_slice(&row[6..]));
-    let &[half, _, cos, radius] = &row[9..ROW] else { unreachable!("four numbers") };
+    let &[half, _, cos, radius] = &row[HALF..ROW] else { unreachable!("four numbers") };
     let (forward, sideways) = (direction.dot(along), direction.dot(across));
     let flat = libm::hypot(forward, sideways);
     // The farthest point of the circle, if it lies on the arc: less than half of the turn from the arc's middle.

@@ -76,19 +76,25 @@ const SMOOTH: f64 = 1e-7;
 /// The arguments of the tube along some arcs.
 pub(crate) fn along(radius: f64, arcs: impl IntoIterator<Item = Arc3>) -> Vec<f64> {
     let arcs: Vec<Arc3> = arcs.into_iter().collect();
+    let rows = arcs.iter().zip(joints(&arcs, OVERLAP));
+    let row = |(arc, joints): (&Arc3, [f64; 2])| arc.constants().into_iter().chain(joints);
+    [radius].into_iter().chain(rows.flat_map(row)).collect()
+}
+
+/// For the beginning and the end of each arc of a chain -1 if that is an end of it, or a corner; otherwise how far both arcs overlap
+/// there at least: this share of the largest coordinate.
+pub(crate) fn joints(arcs: &[Arc3], share: f64) -> Vec<[f64; 2]> {
     // Whether there are ends between an arc and the next one, after the last of which comes the first.
     let next = arcs.iter().cycle().skip(1);
     let largest = arcs.iter().map(|arc| arc.from.abs().max(arc.to.abs()).max_element()).fold(0.0, f64::max);
     let overlap = |(arc, next): (&Arc3, &Arc3)| {
         let is_line = [arc, next].iter().all(|arc| arc.from != arc.to);
         let is_smooth = is_line && arc.to == next.from && arc.end_direction().distance(next.direction) < SMOOTH;
-        if is_smooth { largest * OVERLAP } else { -1.0 }
+        if is_smooth { largest * share } else { -1.0 }
     };
     let ends: Vec<f64> = arcs.iter().zip(next).map(overlap).collect();
     let begins = ends.iter().cycle().skip(arcs.len().saturating_sub(1));
-    let rows = arcs.iter().zip(begins.zip(&ends));
-    let row = |(arc, (begins, ends)): (&Arc3, (&f64, &f64))| arc.constants().into_iter().chain([*begins, *ends]);
-    [radius].into_iter().chain(rows.flat_map(row)).collect()
+    begins.zip(&ends).map(|(begins, ends)| [*begins, *ends]).collect()
 }
 
 /// See [`tube`].
