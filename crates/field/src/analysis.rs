@@ -259,8 +259,9 @@ impl Walk {
                 if figures.iter().any(|figure| figure.dimension != Dimension::Plane) {
                     return self.error(node, None, format!("`{name}` takes plane figures, not bodies"));
                 }
-                let is_loft = matches!(node.shape.kind, Kind::Loft);
-                match if is_loft { loft::contract(&figures) } else { perimeter_sweep::contract(&figures) } {
+                let contract =
+                    if matches!(node.shape.kind, Kind::Loft) { loft::contract } else { perimeter_sweep::contract };
+                match contract(&figures) {
                     Ok(contract) => Some(Contract { dimension: Dimension::Space, ..contract }),
                     Err(fault) => self.error(node, None, fault),
                 }

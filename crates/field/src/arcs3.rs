@@ -4,6 +4,7 @@
 //! both ends, as is asked for (Bolton, "Biarc curves", 1975). Errors fall with the cube of the pieces' length, so that few arcs do.
 
 use crate::curve::Bezier;
+use crate::scalar::Scalar;
 use glam::{DVec2, DVec3, DVec4};
 
 /// A curve of which both halves are curves of the same kind.
@@ -68,6 +69,9 @@ const SAME_WAY: f64 = 1e-9;
 
 /// How many constants an arc has; see [`Arc3::constants`].
 pub(crate) const ROW: usize = 13;
+
+/// Where half the length of the chord stands among them, after which come sine, cosine, and radius.
+pub(crate) const HALF: usize = 9;
 
 /// An arc from point to point that starts in a direction, of length 1; a straight edge if that is the direction of the other point.
 #[derive(Clone, Copy, Debug)]
@@ -168,10 +172,19 @@ impl Arc3 {
     }
 }
 
+/// Arcs have larger radii than this. That of straight edges is 0, of which enclosures know no more than that it is less.
+const LEAST_RADIUS: f64 = 1e-30;
+
+/// Whether an edge of this radius, one of its constants, is an arc.
+#[inline(always)]
+pub(crate) fn is_arc<S: Scalar>(radius: S) -> S::Mask {
+    radius.lift(LEAST_RADIUS).lt(radius)
+}
+
 /// The largest of `direction . p` over the points of an arc with these constants.
 pub(crate) fn reach(row: &[f64], direction: DVec3) -> f64 {
     let (middle, along, across) = (DVec3::from_slice(row), DVec3::from_slice(&row[3..]), DVec3::from_slice(&row[6..]));
-    let &[half, _, cos, radius] = &row[9..ROW] else { unreachable!("four numbers") };
+    let &[half, _, cos, radius] = &row[HALF..ROW] else { unreachable!("four numbers") };
     let (forward, sideways) = (direction.dot(along), direction.dot(across));
     let flat = libm::hypot(forward, sideways);
     // The farthest point of the circle, if it lies on the arc: less than half of the turn from the arc's middle.

@@ -1,5 +1,6 @@
 //! Registers for batches of points, and the operations that run over them.
 
+use crate::contract::Dimension;
 use crate::evaluator::Points;
 use crate::formula::Binary;
 use crate::formula_kernel::{self, BinaryJob, FormulaKernels, Source, UnaryJob};
@@ -10,7 +11,7 @@ use crate::kernel::{
 use crate::lower::{Listing, Op, Operand};
 use crate::mix::{self, MixJob};
 use crate::program::Program;
-use crate::shape::Kind;
+use crate::shape::{Kind, PrimitiveTable};
 use crate::simd::{self, Level};
 use std::marker::PhantomData;
 
@@ -46,7 +47,7 @@ pub(crate) trait Number: Sized {
 /// A primitive's work on one batch, for any number type.
 pub(crate) struct PrimitiveCall<'a, N: Number> {
     /// The kernel for values alone.
-    pub(crate) table: &'static crate::shape::PrimitiveTable,
+    pub(crate) table: &'static PrimitiveTable,
     pub(crate) job: PrimitiveJob<'a>,
     /// The largest slope; infinite if it is not known.
     pub(crate) slope: f32,
@@ -391,6 +392,14 @@ impl Number for Models {
     }
 }
 
+/// How many coordinates a primitive looks at: a figure does not look at the last one, which may be much less certain.
+fn axes(table: &PrimitiveTable) -> usize {
+    match table.dimension {
+        Dimension::Plane => 2,
+        Dimension::Space => 3,
+    }
+}
+
 /// A primitive along a line: its value in the middle, and as much to either side as its largest slope allows.
 fn primitive_model(level: Level, call: PrimitiveCall<'_, Models>) {
     let PrimitiveCall { table, mut job, slope, reach, .. } = call;
@@ -403,16 +412,16 @@ fn primitive_model(level: Level, call: PrimitiveCall<'_, Models>) {
     let mut job =
         PrimitiveJob { points: &middle, at, constants, before: None, out: std::slice::from_mut(&mut own[0]), count };
     (table.kernels.values)(level, &mut job);
-    let size = |axis: usize, lane: usize| middle[axis].0[lane].abs() + at[axis].abs();
+    let size = |lane: usize| -> f32 { (0..axes(table)).map(|axis| middle[axis].0[lane].abs() + at[axis].abs()).sum() };
     for lane in 0..count {
         let value = own[0].0[lane];
         let mut radius = 0.0;
-        for point in points.chunks_exact(Models::COMPONENTS) {
+        for point in points.chunks_exact(Models::COMPONENTS).take(axes(table)) {
             let reach: f32 = point[1..].iter().map(|term| term.0[lane].abs()).sum();
             radius += reach * reach;
         }
         let radius = (radius.sqrt() * WIDER).min(reach.0.0[lane]);
-        let rounding = ROUNDING * (size(0, lane) + size(1, lane) + size(2, lane) + value.abs());
+        let rounding = ROUNDING * (size(lane) + value.abs());
         let slack = slope * radius * WIDER + rounding;
         let is_known = slack < f32::INFINITY;
         own[0].0[lane] = if is_known { value } else { 0.0 };
@@ -446,6 +455,10 @@ fn primitive_over_boxes(level: Level, call: PrimitiveCall<'_, Ranges>) {
             for (axis, middle) in middle.iter_mut().enumerate() {
                 let (lo, hi) = (&points[2 * axis].0[..count], &points[2 * axis + 1].0[..count]);
                 let middle = &mut middle.0[..count];
+                if axis >= axes(table) {
+                    middle.fill(0.0);
+                    continue;
+                }
                 let offset = at[axis].abs();
                 for lane in 0..count {
                     let (lo, hi) = (lo[lane], hi[lane]);

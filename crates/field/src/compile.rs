@@ -9,7 +9,7 @@ use crate::formula::{Binary, Formula, Term, Unary};
 use crate::kernel::AFFINE_CONSTANTS;
 use crate::mix::MIX_CONSTANTS;
 use crate::operation::{Code, Derive, Link, NO_REGION, Region, Run, Step, StepId, Steps};
-use crate::shape::{CombineTable, Kind, MapTable, PrimitiveTable, Shape, range_constants};
+use crate::shape::{CombineTable, Kind, MapTable, PrimitiveTable, ProductTable, Shape, range_constants};
 use crate::shapes::{self, formula, loft, repeat_endless, twist};
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
@@ -207,18 +207,8 @@ impl Compiler {
                 self.joined(before, value)
             }
             Kind::Product(table) => {
-                let (mut space, mut at) = self.settled(space);
-                if let Some(frame) = &table.frame {
-                    let constants = self.prepared(frame.prepare, &tree.args);
-                    let point = self.push(Step::Map { table: frame, from: space.point, at, constants });
-                    (space, at) = self.settled(&Space { point, chain: Vec::new() });
-                }
-                let a = self.emit(&tree.children[0], &space, material, None);
-                let range = (table.range)(&node.numbers()).0;
-                let constants = self.prepared(table.range_constants, &tree.args);
-                let b = self.measure(range, space.point, at, constants);
-                let constants = self.prepared(table.combine.prepare, &tree.args);
-                let value = self.push(Step::Combine { table: &table.combine, a, b, constants });
+                let (space, at) = self.settled(space);
+                let value = self.product(tree, table, &space, at, material);
                 self.joined(before, value)
             }
             Kind::Loft => {
@@ -281,6 +271,41 @@ impl Compiler {
                 self.joined(before, value)
             }
         }
+    }
+
+    /// Emits the union of all parts of a product.
+    fn product(
+        &mut self,
+        tree: &Slotted<'_>,
+        table: &'static ProductTable,
+        space: &Space,
+        at: Run,
+        material: Option<MaterialId>,
+    ) -> StepId {
+        let numbers = tree.node.numbers();
+        let range = (table.range)(&numbers).0;
+        let range_constants = self.prepared(table.range_constants, &tree.args);
+        let constants = self.prepared(table.combine.prepare, &tree.args);
+        let frames = table.frame.as_ref().map(|frame| (frame, self.prepared(frame.prepare, &tree.args).range()));
+        let count = (table.parts)(&numbers);
+        let mut union = None;
+        for index in 0..count {
+            let (space, at) = match &frames {
+                None => (space.clone(), at),
+                Some((table, all)) => {
+                    let width = all.len() / count;
+                    let start = all.start + index * width;
+                    let constants = Run::from(start..start + width);
+                    let point = self.push(Step::Map { table, from: space.point, at, constants });
+                    self.settled(&Space { point, chain: Vec::new() })
+                }
+            };
+            let a = self.emit(&tree.children[0], &space, material, None);
+            let b = self.measure(range, space.point, at, range_constants);
+            let value = self.push(Step::Combine { table: &table.combine, a, b, constants });
+            union = Some(self.joined(union, value));
+        }
+        union.expect("there is a part")
     }
 
     /// Emits the mixture of all figures of a loft.

@@ -99,5 +99,5 @@ mod shape_prelude {
         PlaceCall, Primitive, PrimitiveTable, Product, RangeCall, Settled, Shape, Special, Supports, in_plane,
     };
     pub(crate) use crate::vector::{Vec3, vec3};
-    pub(crate) use glam::{DAffine3, DMat3, DQuat, DVec3};
+    pub(crate) use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 }

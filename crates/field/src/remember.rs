@@ -3,8 +3,11 @@
 use std::cell::RefCell;
 use std::collections::VecDeque;
 
-/// So many results are kept in each thread.
+/// So many results are kept in each thread, the newest ones;
 const KEPT: usize = 32;
+
+/// and no more than so many numbers of their arguments and theirs: 128 MB.
+const MOST_NUMBERS: usize = 1 << 24;
 
 type Entry = (&'static str, Vec<f64>, Vec<f64>);
 
@@ -21,8 +24,14 @@ pub(crate) fn remembered(shape: &'static str, args: &[f64], make: impl FnOnce() 
     known.unwrap_or_else(|| {
         let result = make();
         RESULTS.with_borrow_mut(|results| {
-            results.truncate(KEPT - 1);
             results.push_front((shape, args.to_vec(), result.clone()));
+            let mut numbers = 0;
+            let fits = |(_, args, result): &&Entry| {
+                numbers += args.len() + result.len();
+                numbers <= MOST_NUMBERS
+            };
+            let kept = results.iter().take(KEPT).take_while(fits).count();
+            results.truncate(kept);
         });
         result
     })

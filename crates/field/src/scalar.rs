@@ -279,11 +279,7 @@ pub trait Scalar:
                     node *= 2;
                     continue;
                 }
-                let mut row = 0;
-                while row < tree.leaf {
-                    state = step(state, &tree.row_of(constants, node, row));
-                    row += 1;
-                }
+                state = tree.fold_rows(constants, node, state, &step);
             }
             // What follows all below this node: its sibling, or that of the nearest node above that is a left one.
             node += 1;
@@ -301,7 +297,7 @@ pub trait Scalar:
     fn fold_leaf<const N: usize>(
         constants: &Constants<'_, Self>,
         tree: Tree,
-        mut state: [Self; N],
+        state: [Self; N],
         bound: impl Fn(&Constants<'_, Self>) -> Self,
         step: impl Fn([Self; N], &Constants<'_, Self>) -> [Self; N],
     ) -> [Self; N] {
@@ -314,12 +310,7 @@ pub trait Scalar:
             );
             node = 2 * node + usize::from(Self::any(right.lt(left)));
         }
-        let mut row = 0;
-        while row < tree.leaf {
-            state = step(state, &tree.row_of(constants, node, row));
-            row += 1;
-        }
-        state
+        tree.fold_rows(constants, node, state, &step)
     }
 }
 
@@ -351,11 +342,23 @@ impl Tree {
         constants.part(self.node * node, self.node)
     }
 
+    /// Applies `step` to `state` for each row of the leaf that is this node.
     #[inline(always)]
-    fn row_of<'t, S: Scalar>(self, constants: &Constants<'t, S>, node: usize, row: usize) -> Constants<'t, S> {
+    fn fold_rows<S: Scalar, const N: usize>(
+        self,
+        constants: &Constants<'_, S>,
+        node: usize,
+        mut state: [S; N],
+        step: &impl Fn([S; N], &Constants<'_, S>) -> [S; N],
+    ) -> [S; N] {
         let leaves = self.leaves(constants.count());
-        let before = (node - leaves) * self.leaf + row;
-        constants.part(2 * leaves * self.node + before * self.row, self.row)
+        let mut first = 2 * leaves * self.node + (node - leaves) * self.leaf * self.row;
+        let end = first + self.leaf * self.row;
+        while first < end {
+            state = step(state, &constants.part(first, self.row));
+            first += self.row;
+        }
+        state
     }
 }
 

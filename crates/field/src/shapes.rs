@@ -126,6 +126,7 @@ pub mod stroke;
 pub mod superellipse;
 pub mod svg;
 pub mod svg_path;
+pub mod sweep;
 pub mod swirl;
 pub mod symmetry;
 pub mod taper;
@@ -265,6 +266,7 @@ pub use stroke::*;
 pub use superellipse::*;
 pub use svg::*;
 pub use svg_path::*;
+pub use sweep::*;
 pub use swirl::*;
 pub use symmetry::*;
 pub use taper::*;
@@ -422,6 +424,7 @@ pub static ALL: &[&Shape] = &[
     &SUPERELLIPSE,
     &SVG,
     &SVG_PATH,
+    &SWEEP,
     &SWIRL,
     &SYMMETRY,
     &TAPER,

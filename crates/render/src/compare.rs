@@ -18,8 +18,9 @@ use std::time::Duration;
 /// Two tracers may stop this many of their tolerances apart, measured across the surface, on the same surface.
 const AGREEMENT: f64 = 4.0;
 
-/// The flattest angle, as its sine, under which a ray's distance to a surface is told apart from the way that is left.
-const FLATTEST_ANGLE: f64 = 1e-2;
+/// The slowest fall of the field along a ray, for distances the sine of an angle, at which a ray's distance to a surface is told
+/// apart from the way that is left.
+const SLOWEST_FALL: f64 = 1e-2;
 
 /// Where a surface may be that a ray just touched is looked for at so many places on either side of where the guaranteed
 /// tracer stopped.
@@ -204,10 +205,14 @@ impl Judge {
         }
     }
 
-    /// How far apart two hits on one surface may lie on a ray.
+    /// How far apart two hits on one surface may lie on a ray: farther where the ray meets it under a flat angle, and where the
+    /// field changes more slowly than a distance.
     fn slack(&self, hit: &Layer, ray: &Ray, tolerance: f64) -> f64 {
         let sine = DVec3::from(hit.normal.map(f64::from)).dot(ray.direction).abs();
-        AGREEMENT * tolerance / sine.max(FLATTEST_ANGLE)
+        let place = ray.origin + ray.direction * f64::from(hit.distance);
+        let slope = self.field.as_ref().map_or(1.0, |field| field.gradient(place).1.length());
+        let fall = sine * if slope < 1.0 { slope } else { 1.0 };
+        AGREEMENT * tolerance / fall.max(SLOWEST_FALL)
     }
 
     /// Whether there is a surface near a place on a ray, judged by the field and its gradient.

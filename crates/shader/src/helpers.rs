@@ -9,7 +9,6 @@ use freikugel_field::formula::{Binary, Unary};
 use freikugel_field::mix::mixed;
 use freikugel_field::{Constants, Dual, Kind, ParamKind, Shape};
 use std::collections::HashMap;
-use std::ops::Range;
 
 /// With more constants than this a function gets the place of the first one instead.
 const MOST_ARGUMENTS: usize = 10;
@@ -58,19 +57,50 @@ impl Base {
     }
 }
 
+/// The number of the round, in loops over steps that come again with other constants.
+pub(crate) const ROUND: &str = "piece";
+
+/// A constant of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    pub(crate) base: Base,
+    /// Where it is among those of its part,
+    pub(crate) constant: usize,
+    /// and how much farther on it is in each round.
+    pub(crate) stride: usize,
+}
+
+impl Place {
+    /// The same one in each round.
+    pub(crate) fn always(base: Base, constant: usize) -> Self {
+        Self { base, constant, stride: 0 }
+    }
+
+    /// The place in the table of parameters.
+    pub(crate) fn place(self) -> Expr {
+        let place = self.base.place(self.constant);
+        match self.stride {
+            0 => place,
+            stride => place + Expr::Int(stride as i64) * Expr::name(ROUND),
+        }
+    }
+
+    /// The constant that comes so many later.
+    pub(crate) fn after(self, count: usize) -> Self {
+        Self { constant: self.constant + count, ..self }
+    }
+
+    /// The constant.
+    pub(crate) fn parameter(self) -> Expr {
+        Expr::Parameter(Box::new(self.place()))
+    }
+}
+
 /// The constants of a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Own {
-    base: Base,
-    first: usize,
-    count: usize,
-}
-
-impl Own {
-    /// Some of the constants of a part that begin at `base`.
-    pub(crate) fn new(base: Base, range: &Range<usize>) -> Self {
-        Self { base, first: range.start, count: range.len() }
-    }
+    pub(crate) first: Place,
+    pub(crate) count: usize,
 }
 
 /// What is wanted of a function.
@@ -254,7 +284,7 @@ impl Helpers {
             Some(known) => known.clone(),
             None => self.value_function(want, key, values.len(), &passing, &|graph, _| record(graph), 0),
         };
-        passing.call(known, values.to_vec(), Own::new(Base::First, &(0..0)))
+        passing.call(known, values.to_vec(), Own { first: Place::always(Base::First, 0), count: 0 })
     }
 
     fn of_values(
@@ -491,11 +521,11 @@ impl Passing {
     fn call(&self, known: Known, mut values: Vec<Expr>, constants: Own) -> Expr {
         match self {
             Self::Each(_) => {
-                values.extend(known.takes.iter().map(|place| constants.base.parameter(constants.first + place)));
+                values.extend(known.takes.iter().map(|&place| constants.first.after(place).parameter()));
             }
-            Self::First => values.push(constants.base.place(constants.first)),
+            Self::First => values.push(constants.first.place()),
             Self::Rows(rows) => {
-                values.extend([constants.base.place(constants.first), Expr::Int(*rows as i64)]);
+                values.extend([constants.first.place(), Expr::Int(*rows as i64)]);
             }
         }
         Expr::Call(known.name, values)
@@ -548,7 +578,7 @@ fn constant_names(shape: &Shape, count: usize) -> Vec<String> {
     }
     let constants = if is_list || shape.about.params.is_empty() { Vec::new() } else { prepare(&sample) };
     let mut names = Names::new();
-    ["p", "a", "b", "height", "first"].into_iter().for_each(|name| names.take(name));
+    ["p", "a", "b", "height", "first", ROUND].into_iter().for_each(|name| names.take(name));
     let name = |place: usize| {
         let known = (constants.len() == count).then(|| constants[place]);
         let find =

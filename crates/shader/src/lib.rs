@@ -72,6 +72,7 @@ mod numbers;
 pub mod parse;
 mod part;
 mod print;
+mod rounds;
 mod sampled;
 mod scene;
 mod shader;

@@ -3,8 +3,9 @@
 //! Parts are tried one after another for the nearest, so that those far away can be passed over by their boxes.
 
 use crate::formula::statements;
-use crate::helpers::{Base, Helpers, Mapping, Own, Want, derivative, dual_statements};
+use crate::helpers::{Base, Helpers, Mapping, Own, Place, ROUND, Want, derivative, dual_statements};
 use crate::names::Names;
+use crate::rounds::Rounds;
 use crate::tree::{Expr, Function, Statement, Type};
 use freikugel_field::expr::{self, Graph, Loop, Slots};
 use freikugel_field::field::Origin;
@@ -12,6 +13,7 @@ use freikugel_field::formula::Binary;
 use freikugel_field::shapes;
 use freikugel_field::{Action, Field, Kind, MaterialId, Outline, Scalar, Structure, copies};
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// A field of its own among those of a scene.
 #[derive(Clone, Debug)]
@@ -107,9 +109,15 @@ impl Part {
 
     /// Statements that compute its value, or value and gradient, at the point `p`, and the result.
     pub(crate) fn value(&self, want: Want, base: Base, name: &str, helpers: &mut Helpers) -> (Vec<Statement>, Expr) {
-        let mut walk = Walk::new(self, want, base, name, helpers);
-        walk.all();
         let result = self.outline.result.expect("a part is something");
+        let mut walk = Walk::new(self, want, base, name, helpers);
+        let mut next = 0;
+        for rounds in Rounds::of(&self.outline.steps, result) {
+            walk.steps(next..rounds.first);
+            next = rounds.first + rounds.steps * rounds.count;
+            walk.rounds(&rounds);
+        }
+        walk.steps(next..self.outline.steps.len());
         let value = walk.values[result].clone().expect("every step has a value");
         let mut body = walk.body;
         match body.pop() {
@@ -125,7 +133,7 @@ impl Part {
     /// Statements that compute the shares of its regions at the point `p`, and one for each region.
     pub(crate) fn shares(&self, base: Base, name: &str, helpers: &mut Helpers) -> (Vec<Statement>, Vec<Expr>) {
         let mut walk = Walk::new(self, Want::Value, base, name, helpers);
-        walk.all();
+        walk.steps(0..self.outline.steps.len());
         walk.shares()
     }
 }
@@ -171,6 +179,8 @@ struct Walk<'a> {
     reads: Vec<usize>,
     local: Names,
     numbers: HashMap<String, usize>,
+    /// In a loop, how much farther on constants are in each round.
+    strides: HashMap<usize, usize>,
 }
 
 impl<'a> Walk<'a> {
@@ -212,13 +222,40 @@ impl<'a> Walk<'a> {
             reads,
             local,
             numbers: HashMap::new(),
+            strides: HashMap::new(),
         }
     }
 
-    fn all(&mut self) {
-        for index in 0..self.part.outline.steps.len() {
-            self.step(index);
-        }
+    fn steps(&mut self, steps: Range<usize>) {
+        steps.for_each(|index| self.step(index));
+    }
+
+    /// Writes a loop for steps that come again and again.
+    fn rounds(&mut self, rounds: &Rounds) {
+        let (before, end) = (rounds.first - 1, rounds.first + rounds.steps);
+        let start = self.read(before);
+        let name = self.local.make("joined");
+        self.body.push(Statement::Var(name.clone(), self.ty(), start.clone()));
+        let outside = std::mem::take(&mut self.body);
+        self.values[before] = Some(Expr::name(&*name));
+        self.strides.clone_from(&rounds.strides);
+        self.steps(rounds.first..end);
+        self.strides.clear();
+        let result = self.read(end - 1);
+        self.body.push(Statement::Assign(Expr::name(&*name), result));
+        let round = std::mem::replace(&mut self.body, outside);
+        self.body.push(Statement::Count(ROUND.into(), Expr::Int(0), Expr::Int(rounds.count as i64), round));
+        self.values[before] = Some(start);
+        self.values[rounds.first + rounds.steps * rounds.count - 1] = Some(Expr::Name(name));
+    }
+
+    /// Where a constant is.
+    fn place(&self, constant: usize) -> Place {
+        Place { base: self.base, constant, stride: self.strides.get(&constant).copied().unwrap_or(0) }
+    }
+
+    fn own(&self, constants: &Range<usize>) -> Own {
+        Own { first: self.place(constants.start), count: constants.len() }
     }
 
     fn ty(&self) -> Type {
@@ -251,7 +288,7 @@ impl<'a> Walk<'a> {
 
     /// A point less three constants.
     fn moved(&self, point: usize, at: usize) -> Expr {
-        self.point(point) - triple(self.base.place(at))
+        self.point(point) - triple(self.place(at).place())
     }
 
     /// A value with its gradient by the coordinates of `point`, seen from the first point.
@@ -269,21 +306,21 @@ impl<'a> Walk<'a> {
         if self.is_formula[index] {
             return;
         }
-        let (want, base) = (self.want, self.base);
+        let want = self.want;
         let value = match &self.part.outline.steps[index] {
             Action::Point => {
                 self.points[index] = Some(Expr::name("p"));
                 return;
             }
             &Action::Affine { from, constants } => {
-                let matrix = Expr::call("matrix", [base.place(constants)]);
+                let matrix = Expr::call("matrix", [self.place(constants).place()]);
                 self.maps[index] = Some((from, matrix.clone()));
-                let point = matrix * self.point(from) + triple(base.place(constants + 9));
+                let point = matrix * self.point(from) + triple(self.place(constants).after(9).place());
                 self.set_point(index, point);
                 return;
             }
             Action::Map { shape, from, at, constants } => {
-                let own = Own::new(base, constants);
+                let own = self.own(constants);
                 let at = self.moved(*from, *at);
                 if want == Want::Gradient {
                     let derivative = self.helpers.map(Mapping::Derivative, shape, at.clone(), own);
@@ -300,27 +337,27 @@ impl<'a> Walk<'a> {
             }
             Action::Primitive { shape, point, at, constants, .. } => {
                 let at = self.moved(*point, *at);
-                let value = self.helpers.primitive(want, shape, at, Own::new(base, constants));
+                let value = self.helpers.primitive(want, shape, at, self.own(constants));
                 let value = self.seen(value, *point);
                 self.bind(shape.about.name, self.ty(), value)
             }
             Action::Combine { shape, a, b, constants } => {
                 let values = [self.read(*a), self.read(*b)];
-                let value = self.helpers.combine(want, shape, values, Own::new(base, constants));
+                let value = self.helpers.combine(want, shape, values, self.own(constants));
                 self.bind(shape.about.name, self.ty(), value)
             }
             Action::Mix { shape, a, b, height, constants } => {
                 let values = [*a, *b, *height].map(|step| self.read(step));
-                let value = self.helpers.mix(want, shape, &values, Own::new(base, constants));
+                let value = self.helpers.mix(want, shape, &values, self.own(constants));
                 self.bind(shape.about.name, self.ty(), value)
             }
             Action::Modify { shape, from, constants } => {
                 let from = self.read(*from);
-                let value = self.helpers.modify(want, shape, from, Own::new(base, constants));
+                let value = self.helpers.modify(want, shape, from, self.own(constants));
                 self.bind(shape.about.name, self.ty(), value)
             }
             &Action::Scale { from, factor } => {
-                let value = self.read(from) * base.parameter(factor);
+                let value = self.read(from) * self.place(factor).parameter();
                 self.bind("scaled", self.ty(), value)
             }
             &Action::Surface { from, .. } => self.read(from),
@@ -480,7 +517,6 @@ impl<'a> Walk<'a> {
 
     fn shares(mut self) -> (Vec<Statement>, Vec<Expr>) {
         let steps = &self.part.outline.steps;
-        let base = self.base;
         let mut weights: Vec<Option<Expr>> = vec![None; steps.len()];
         let mut sums: Vec<Option<Expr>> = vec![None; self.part.regions.len()];
         weights[self.part.outline.result.expect("a part is something")] = Some(Expr::Float(1.0));
@@ -493,7 +529,7 @@ impl<'a> Walk<'a> {
             match &steps[index] {
                 Action::Combine { shape, a, b, constants } => {
                     let values = [*a, *b].map(|step| self.values[step].clone().expect("a value"));
-                    let share = self.helpers.share(shape, values, Own::new(base, constants));
+                    let share = self.helpers.share(shape, values, self.own(constants));
                     let share = if weight == Expr::Float(1.0) { share } else { weight.clone() * share };
                     let second = self.bind("share", Type::Float, share);
                     weights[*a] = Some(self.bind("rest", Type::Float, weight - second.clone()));
@@ -503,7 +539,7 @@ impl<'a> Walk<'a> {
                     // What 0 and 1 mix to is the share of the second value.
                     let height = self.values[*height].clone().expect("a value");
                     let values = [Expr::Float(0.0), Expr::Float(1.0), height];
-                    let share = self.helpers.mix(Want::Value, shape, &values, Own::new(base, constants));
+                    let share = self.helpers.mix(Want::Value, shape, &values, self.own(constants));
                     let second = self.bind("share", Type::Float, weight.clone() * share);
                     weights[*a] = Some(self.bind("rest", Type::Float, weight - second.clone()));
                     weights[*b] = Some(second);

@@ -10,7 +10,7 @@ use fields::Random;
 use freikugel_field::{Structure, shapes};
 use freikugel_render::{Options, Renderer};
 use freikugel_scene::Scene;
-use freikugel_shader::{Shader, Show, View};
+use freikugel_shader::{Shader, Show, Target, View};
 use glam::DVec3;
 use std::path::Path;
 
@@ -24,28 +24,68 @@ const ROUNDING: f64 = 2e-4;
 /// A share of the points may lie at an edge, where another side is taken for the derivative.
 const AT_EDGES: f64 = 0.03;
 
+/// A scene of one object, whose field is to be that of the processor.
+fn assert_agreement(name: &str, scene: &Scene) {
+    let shader = Shader::new(scene).expect("a shader");
+    let parameters = shader.parameters(scene).expect("parameters");
+    let machine = Machine::new(&shader, &parameters, &View::of(1, 1));
+    let field = Structure::compile(&[scene.objects[0].shape.clone()]).expect("a field").program(DVec3::ZERO);
+    let mut at_edges = 0;
+    let mut random = Random::new(1);
+    for p in (0..POINTS).map(|_| random.point(1.5)) {
+        let relative = Value::Vector((p - parameters.origin()).to_array().to_vec());
+        let out = machine.call("field_gradient", vec![relative]);
+        let [x, y, z, value] = *out.vector() else { panic!("four numbers") };
+        let (expected, gradient) = field.gradient(p);
+        let reach = ROUNDING * (1.0 + gradient.length());
+        assert!((value - expected).abs() < reach, "{name} at {p}: {value}, not {expected}");
+        let is_same = gradient.distance(DVec3::new(x, y, z)) < 50.0 * reach;
+        at_edges += usize::from(!is_same);
+    }
+    assert!((at_edges as f64) < AT_EDGES * POINTS as f64, "{name}: {at_edges} gradients differ");
+}
+
 #[test]
 fn fields_and_gradients_agree_for_every_shape() {
     for shape in shapes::ALL {
-        let name = shape.about.name;
-        let scene = scene_of(shape.about.example);
+        assert_agreement(shape.about.name, &scene_of(shape.about.example));
+    }
+}
+
+/// A shape at random places.
+fn scattered(shape: &str, random: &mut Random, count: usize) -> String {
+    let copies = (0..count).map(|_| {
+        let [x, y, z] = random.point(1.0).to_array();
+        let angle = random.range(0.0, 90.0);
+        let turned = format!(r#"{{ "rotate": {{ "axis": [1, 2, 3], "angle": {angle}, "shape": {shape} }} }}"#);
+        format!(r#"{{ "translate": {{ "by": [{x}, {y}, {z}], "shape": {turned} }} }}"#)
+    });
+    copies.collect::<Vec<_>>().join(", ")
+}
+
+#[test]
+fn fields_agree_where_steps_come_in_rounds() {
+    let mut random = Random::new(3);
+    let balls = scattered(r#"{ "sphere": { "radius": 0.2 } }"#, &mut random, 30);
+    let boxes =
+        scattered(r#"{ "scale": { "factor": 0.8, "shape": { "box": { "size": [0.3, 0.2, 0.4] } } } }"#, &mut random, 7);
+    let blend = format!(r#"{{ "smooth_union": {{ "k": 0.2, "shapes": [{balls}] }} }}"#);
+    let carved = format!(r#"{{ "difference": [{blend}, {boxes}] }}"#);
+    let moved =
+        format!(r#"{{ "twist": {{ "rate": 20, "shape": {{ "offset": {{ "by": 0.05, "shape": {carved} }} }} }} }}"#);
+    // What comes before a chain, after it, and between the rounds of two is not taken for a part of one.
+    let round = r#"{ "sphere": { "radius": 0.3 } }"#;
+    let mixed = format!(r#"{{ "smooth_difference": {{ "k": 0.1, "shapes": [{round}, {balls}, {boxes}, {balls}] }} }}"#);
+    let swept = r#"{ "intersection": [ { "translate": { "by": [0.1, 0.2, 0.3], "shape": { "sweep": { "points": [[-1, 0, 0], [0, 0.4, 0.3],
+        [1, 0, 0]], "shape": { "smooth_union": { "k": 0.05, "shapes": [{ "circle": { "radius": 0.1 } },
+        { "rectangle": { "size": [0.3, 0.1] } }] } } } } } }, { "sphere": { "radius": 1 } } ] }"#;
+    for (name, shape) in [("carved", &*carved), ("moved", &*moved), ("mixed", &*mixed), ("swept", swept)] {
+        let scene = scene_of(shape);
+        assert_agreement(name, &scene);
         let shader = Shader::new(&scene).expect("a shader");
         let parameters = shader.parameters(&scene).expect("parameters");
-        let machine = Machine::new(&shader, &parameters, &View::of(1, 1));
-        let field = Structure::compile(&[scene.objects[0].shape.clone()]).expect("a field").program(DVec3::ZERO);
-        let mut at_edges = 0;
-        let mut random = Random::new(1);
-        for p in (0..POINTS).map(|_| random.point(1.5)) {
-            let relative = Value::Vector((p - parameters.origin()).to_array().to_vec());
-            let out = machine.call("field_gradient", vec![relative]);
-            let [x, y, z, value] = *out.vector() else { panic!("four numbers") };
-            let (expected, gradient) = field.gradient(p);
-            let reach = ROUNDING * (1.0 + gradient.length());
-            assert!((value - expected).abs() < reach, "{name} at {p}: {value}, not {expected}");
-            let is_same = gradient.distance(DVec3::new(x, y, z)) < 50.0 * reach;
-            at_edges += usize::from(!is_same);
-        }
-        assert!((at_edges as f64) < AT_EDGES * POINTS as f64, "{name}: {at_edges} gradients differ");
+        let text = shader.text(Target::Wgsl, &parameters).expect("text");
+        assert!(text.contains("var piece"), "{name} has a loop");
     }
 }
 

@@ -71,6 +71,8 @@ pub struct MapTable {
 pub struct ProductTable {
     /// See [`Product::FRAME`].
     pub frame: Option<MapTable>,
+    /// See [`Product::parts`].
+    pub parts: fn(&[f64]) -> usize,
     /// See [`Product::range`].
     pub range: fn(&[f64]) -> RangeCall,
     /// The constants of the range's formula.
@@ -219,6 +221,7 @@ impl ProductTable {
     pub const fn of<P: Product>() -> Self {
         Self {
             frame: P::FRAME,
+            parts: P::parts,
             range: P::range,
             range_constants: |args| range_constants(P::range(args)),
             combine: CombineTable::of::<P>(),

@@ -235,6 +235,11 @@ pub trait Product: Combine {
     /// a distance, whatever the parameters.
     const FRAME: Option<MapTable> = None;
 
+    /// How many such products it is the union of: one unless there is a frame, whose constants are then those of each part in turn.
+    fn parts(_args: &[f64]) -> usize {
+        1
+    }
+
     /// The range: a call of a primitive that looks at z alone, the same one for all parameters.
     fn range(args: &[f64]) -> RangeCall;
 }

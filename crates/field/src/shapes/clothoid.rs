@@ -8,7 +8,6 @@ use super::polyline::Stroke;
 use super::spiral::{line, quarters};
 use crate::remember::remembered;
 use crate::shape_prelude::*;
-use glam::DVec2;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// See [`clothoid`].

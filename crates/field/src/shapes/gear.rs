@@ -9,7 +9,6 @@ use super::outline::{Outline, closed};
 use crate::arcs::Lines;
 use crate::remember::remembered;
 use crate::shape_prelude::*;
-use glam::DVec2;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// See [`gear`].

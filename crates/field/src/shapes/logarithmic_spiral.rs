@@ -5,7 +5,6 @@ use super::polyline::Stroke;
 use super::spiral::{MOST_TURNS, line, quarters};
 use crate::remember::remembered;
 use crate::shape_prelude::*;
-use glam::DVec2;
 use std::f64::consts::TAU;
 
 /// See [`logarithmic_spiral`].

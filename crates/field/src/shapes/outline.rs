@@ -4,11 +4,11 @@
 //! an arc and its chord: both ask on which side of the chord a point lies in the same way, so that nothing shows where they meet.
 
 use super::polygon::crosses;
+use crate::arcs3::is_arc;
 use crate::fill::components;
 use crate::remember::remembered;
 use crate::scalar::Mask;
 use crate::shape_prelude::*;
-use glam::DVec2;
 
 /// See [`outline`].
 #[derive(Clone, Copy, Debug)]
@@ -209,7 +209,7 @@ impl Primitive for Outline {
                 let to_centre = radius * cos;
                 // The square of the distance from the centre, less that of the radius, without a difference of large numbers.
                 let excess = (along - half) * (along + half) + across * (across + to_centre * 2.0);
-                let is_arc = zero.lt(radius);
+                let is_arc = is_arc(radius);
                 let gap = S::select(is_arc, excess / (S::length2(along, across + to_centre) + radius), across);
                 let distance = S::select(is_between, gap.abs(), S::length2(along - half, across));
 

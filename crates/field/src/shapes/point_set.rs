@@ -1,6 +1,7 @@
 //! Balls around given points, found by a tree of boxes: clouds of up to millions of points.
 
 use crate::point_tree::{TREE, constants};
+use crate::remember::remembered;
 use crate::shape_prelude::*;
 
 /// See [`point_set`].
@@ -69,6 +70,12 @@ pub(crate) fn square_to_point<S: Scalar>(p: Vec3<S>, row: &Constants<'_, S>) -> 
     q.x.square() + q.y.square() + q.z.square()
 }
 
+/// The least of the squares so far and that of the distance from the point in a row.
+#[inline(always)]
+fn least<S: Scalar>(p: Vec3<S>, [least]: [S; 1], row: &Constants<'_, S>) -> [S; 1] {
+    [square_to_point(p, row).min(least)]
+}
+
 /// The distance whose square this is; not 0, since there it has no slope.
 #[inline(always)]
 pub(crate) fn length<S: Scalar>(square: S) -> S {
@@ -86,7 +93,7 @@ pub(crate) fn nearest<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         #[inline(always)]
         |node| square_to_box(p, node),
         #[inline(always)]
-        |[least], row| [square_to_point(p, row).min(least)],
+        |found, row| least(p, found, row),
     );
     // The nearest point itself is to be found again, the first one of several.
     let above = near * (1.0 + MARGIN) + far.lift(LEAST);
@@ -97,7 +104,7 @@ pub(crate) fn nearest<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         #[inline(always)]
         |node| square_to_box(p, node),
         #[inline(always)]
-        |[least], row| [square_to_point(p, row).min(least)],
+        |found, row| least(p, found, row),
     );
     length(square)
 }
@@ -123,7 +130,7 @@ impl Primitive for PointSet {
     }
 
     fn prepare(args: &[f64]) -> Vec<f64> {
-        constants(points(&args[1..]).collect(), &args[..RADIUS])
+        remembered("point_set", args, || constants(points(&args[1..]).collect(), &args[..RADIUS]))
     }
 
     fn contract(args: &[f64]) -> Contract {

@@ -5,7 +5,6 @@
 
 use crate::scalar::Mask;
 use crate::shape_prelude::*;
-use glam::DVec2;
 
 /// See [`polygon`].
 #[derive(Clone, Copy, Debug)]

@@ -2,6 +2,7 @@
 
 use super::point_set::{check, farthest, length, nearest, points, square_to_box, square_to_point};
 use crate::point_tree::{TREE, constants};
+use crate::remember::remembered;
 use crate::shape_prelude::*;
 
 /// See [`smooth_point_set`].
@@ -29,6 +30,9 @@ const K: usize = 2;
 
 /// At most so many steps towards the level; from the second one on each doubles the digits that are right.
 const MOST_STEPS: u32 = 12;
+
+/// How often the range is halved in which its highest point is sought: to a thousandth of `k`.
+const HALVINGS: u32 = 10;
 
 /// Steps that are shorter than this share of `k` are the last ones.
 const PRECISION: f64 = 1e-6;
@@ -66,6 +70,21 @@ fn smooth_nearest<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
     level - k
 }
 
+/// No lower than the largest height, in a direction of length 1, at which the smooth minimum is 0: where it would be if all points
+/// were straight below.
+fn highest(list: &[f64], direction: DVec3, k: f64) -> f64 {
+    let top = farthest(list, direction);
+    let heights: Vec<f64> =
+        points(list).map(|point| point.dot(direction) - top).filter(|&height| height > -k).collect();
+    let squares = |above: f64| -> f64 { heights.iter().map(|height| (k + height - above).max(0.0).powi(2)).sum() };
+    let [mut low, mut high] = [0.0, k];
+    for _ in 0..HALVINGS {
+        let middle = (low + high) / 2.0;
+        *(if squares(middle) > k * k { &mut low } else { &mut high }) = middle;
+    }
+    top + high
+}
+
 impl Primitive for SmoothPointSet {
     const ABOUT: About = About {
         name: "smooth_point_set",
@@ -91,7 +110,7 @@ impl Primitive for SmoothPointSet {
     }
 
     fn prepare(args: &[f64]) -> Vec<f64> {
-        constants(points(&args[BEFORE..]).collect(), &args[..BEFORE])
+        remembered("smooth_point_set", args, || constants(points(&args[BEFORE..]).collect(), &args[..BEFORE]))
     }
 
     fn contract(_args: &[f64]) -> Contract {
@@ -99,10 +118,8 @@ impl Primitive for SmoothPointSet {
     }
 
     fn support(args: &[f64], direction: DVec3, level: f64) -> f64 {
-        // All of the points together make it larger than single balls by no more than this.
-        let count = (args.len() - BEFORE) as f64 / 3.0;
-        let growth = args[1] * (1.0 - 1.0 / count.sqrt());
-        farthest(&args[BEFORE..], direction) + (args[0] + growth + level) * direction.length()
+        let length = direction.length();
+        highest(&args[BEFORE..], direction / length, args[1]) * length + (args[0] + level) * length
     }
 
     #[inline(always)]

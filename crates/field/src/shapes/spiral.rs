@@ -6,7 +6,6 @@ use crate::arcs::{Curve, Lines};
 use crate::arcs3::Arc3;
 use crate::remember::remembered;
 use crate::shape_prelude::*;
-use glam::DVec2;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// See [`spiral`].

@@ -5,9 +5,9 @@
 
 use super::outline::Edge;
 use crate::arcs::Lines;
+use crate::arcs3::is_arc;
 use crate::remember::remembered;
 use crate::shape_prelude::*;
-use glam::DVec2;
 
 /// See [`superellipse`].
 #[derive(Clone, Copy, Debug)]
@@ -130,7 +130,7 @@ impl Primitive for Superellipse {
                 let to_centre = radius * cos;
                 let excess = (along - half) * (along + half) + across * (across + to_centre * 2.0);
                 let gap = excess / (S::length2(along, across + to_centre) + radius);
-                let gap = S::select(zero.lt(radius), gap, across);
+                let gap = S::select(is_arc(radius), gap, across);
                 let is_nearer = is_between & gap.abs().lt(nearest.abs());
                 [S::select(is_nearer, gap * outward, nearest)]
             },

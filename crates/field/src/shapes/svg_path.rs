@@ -5,7 +5,6 @@ use crate::arcs::Lines;
 use crate::fill::{Rule, filled};
 use crate::remember::remembered;
 use crate::shape_prelude::*;
-use glam::DVec2;
 use svgtypes::{SimplePathSegment, SimplifyingPathParser};
 
 /// See [`svg_path`].

@@ -2,7 +2,6 @@
 
 use super::polygon::{edges, polygon_distance};
 use crate::shape_prelude::*;
-use glam::DVec2;
 
 /// The part of a plane within a polygon. Its arguments are its corners, all of them in that plane; the first three don't lie on a
 /// line.

@@ -3,7 +3,7 @@
 //! Where one goes over into the next smoothly, the joint is never nearer than the points beside it, so that it is no end of either:
 //! single precision could not tell it from them, and would take the curvature of an end for that of the tube.
 
-use crate::arcs3::{self, Arc3, reach};
+use crate::arcs3::{self, Arc3, is_arc, reach};
 use crate::shape_prelude::*;
 
 /// All that a ball fills while it moves along straight edges and arcs: what tubes of all kinds are cases of. Its arguments are its
@@ -54,7 +54,7 @@ impl Primitive for Wire {
                 let is_between = zero.lt(sin * across + cos * (half - along) + overlap);
                 let to_centre = radius * cos;
                 let excess = (along - half) * (along + half) + across * (across + to_centre * 2.0);
-                let is_arc = zero.lt(radius);
+                let is_arc = is_arc(radius);
                 let gap = S::select(is_arc, excess / (S::length2(along, across + to_centre) + radius), across);
                 let beside = S::select(is_between, zero, along - half);
                 let across = S::select(is_between, gap, across);
@@ -76,19 +76,25 @@ const SMOOTH: f64 = 1e-7;
 /// The arguments of the tube along some arcs.
 pub(crate) fn along(radius: f64, arcs: impl IntoIterator<Item = Arc3>) -> Vec<f64> {
     let arcs: Vec<Arc3> = arcs.into_iter().collect();
+    let rows = arcs.iter().zip(joints(&arcs, OVERLAP));
+    let row = |(arc, joints): (&Arc3, [f64; 2])| arc.constants().into_iter().chain(joints);
+    [radius].into_iter().chain(rows.flat_map(row)).collect()
+}
+
+/// For the beginning and the end of each arc of a chain -1 if that is an end of it, or a corner; otherwise how far both arcs overlap
+/// there at least: this share of the largest coordinate.
+pub(crate) fn joints(arcs: &[Arc3], share: f64) -> Vec<[f64; 2]> {
     // Whether there are ends between an arc and the next one, after the last of which comes the first.
     let next = arcs.iter().cycle().skip(1);
     let largest = arcs.iter().map(|arc| arc.from.abs().max(arc.to.abs()).max_element()).fold(0.0, f64::max);
     let overlap = |(arc, next): (&Arc3, &Arc3)| {
         let is_line = [arc, next].iter().all(|arc| arc.from != arc.to);
         let is_smooth = is_line && arc.to == next.from && arc.end_direction().distance(next.direction) < SMOOTH;
-        if is_smooth { largest * OVERLAP } else { -1.0 }
+        if is_smooth { largest * share } else { -1.0 }
     };
     let ends: Vec<f64> = arcs.iter().zip(next).map(overlap).collect();
     let begins = ends.iter().cycle().skip(arcs.len().saturating_sub(1));
-    let rows = arcs.iter().zip(begins.zip(&ends));
-    let row = |(arc, (begins, ends)): (&Arc3, (&f64, &f64))| arc.constants().into_iter().chain([*begins, *ends]);
-    [radius].into_iter().chain(rows.flat_map(row)).collect()
+    begins.zip(&ends).map(|(begins, ends)| [*begins, *ends]).collect()
 }
 
 /// See [`tube`].
