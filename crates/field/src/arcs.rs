@@ -66,12 +66,12 @@ impl Lines {
 
     /// A quadratic curve.
     pub(crate) fn quadratic_to(&mut self, control: DVec2, to: DVec2) {
-        self.curve_to([control, to]);
+        self.bezier_to(&[control, to]);
     }
 
     /// A cubic curve.
     pub(crate) fn cubic_to(&mut self, first: DVec2, second: DVec2, to: DVec2) {
-        self.curve_to([first, second, to]);
+        self.bezier_to(&[first, second, to]);
     }
 
     /// An arc that turns to the left by this angle.
@@ -113,9 +113,9 @@ impl Lines {
     }
 
     /// A Bézier curve from where the line is, by its other control points.
-    fn curve_to<const N: usize>(&mut self, points: [DVec2; N]) {
-        self.arcs(&Bezier::new([self.at].iter().chain(&points).map(|point| point.extend(0.0)).collect()));
-        self.at = points[N - 1];
+    pub(crate) fn bezier_to(&mut self, points: &[DVec2]) {
+        self.arcs(&Bezier::new([self.at].iter().chain(points).map(|point| point.extend(0.0)).collect()));
+        self.at = points[points.len() - 1];
     }
 
     /// The arcs of a curve in the plane.

@@ -312,7 +312,95 @@ pub trait Scalar:
         }
         tree.fold_rows(constants, node, state, &step)
     }
+
+    /// The least `value` of all rows in the leaves of a tree, which is below `most`; none is less than the `bound` of a node above
+    /// it. Of several that are the least, it is the first one, wherever that makes a difference: `raised` is a number above its
+    /// argument, by so much that a row of that value is found once more.
+    ///
+    /// Write all functions as `#[inline(always)] |...| ...`: what is not inlined loses the instruction set.
+    #[inline(always)]
+    fn least_in_tree(
+        constants: &Constants<'_, Self>,
+        tree: Tree,
+        most: Self,
+        bound: impl Fn(&Constants<'_, Self>) -> Self,
+        value: impl Fn(&Constants<'_, Self>) -> Self,
+        raised: impl Fn(Self) -> Self,
+    ) -> Self {
+        let [near] = Self::fold_leaf(
+            constants,
+            tree,
+            [most],
+            &bound,
+            #[inline(always)]
+            |[least], row| [value(row).min(least)],
+        );
+        let [least] = Self::fold_tree(
+            constants,
+            tree,
+            [raised(near)],
+            &bound,
+            #[inline(always)]
+            |[least], row| [value(row).min(least)],
+        );
+        least
+    }
 }
+
+/// [`Scalar::least_in_tree`] for plain numbers, which of several equal rows it is from makes no difference to: the nearer one of two
+/// nodes comes first, whichever that is.
+#[inline(always)]
+fn least_near_first<S: Scalar>(
+    constants: &Constants<'_, S>,
+    tree: Tree,
+    most: S,
+    bound: impl Fn(&Constants<'_, S>) -> S,
+    value: impl Fn(&Constants<'_, S>) -> S,
+) -> S {
+    let leaves = tree.leaves(constants.count());
+    let (mut waiting, mut count) = ([0; DEEPEST], 0);
+    let (mut least, mut node) = (most, 1);
+    loop {
+        if node < leaves {
+            let [left, right] = [2 * node, 2 * node + 1].map(
+                #[inline(always)]
+                |node| bound(&tree.node_of(constants, node)),
+            );
+            let is_right = S::any(right.lt(left));
+            let (near, far) = if is_right { (right, left) } else { (left, right) };
+            if S::any(far.lt(least)) {
+                waiting[count] = 2 * node + usize::from(!is_right);
+                count += 1;
+            }
+            if S::any(near.lt(least)) {
+                node = 2 * node + usize::from(is_right);
+                continue;
+            }
+        } else {
+            [least] = tree.fold_rows(
+                constants,
+                node,
+                [least],
+                #[inline(always)]
+                |[least], row| [value(row).min(least)],
+            );
+        }
+        // What waits has become too far away, or it is next.
+        loop {
+            if count == 0 {
+                return least;
+            }
+            count -= 1;
+            node = waiting[count];
+            if S::any(bound(&tree.node_of(constants, node)).lt(least)) {
+                break;
+            }
+        }
+    }
+}
+
+/// The most levels of a tree: its constants are counted by numbers of 32 bits.
+const DEEPEST: usize = 32;
 
 /// How a complete binary tree lies among constants. Its `n` leaves are the nodes `n` to `2 n - 1`; below node `i` before them are
 /// `2 i` and `2 i + 1`. The constants of the nodes come first, in order, in the place of node 0 (which is none) what else the
@@ -349,7 +437,7 @@ impl Tree {
         constants: &Constants<'_, S>,
         node: usize,
         mut state: [S; N],
-        step: &impl Fn([S; N], &Constants<'_, S>) -> [S; N],
+        step: impl Fn([S; N], &Constants<'_, S>) -> [S; N],
     ) -> [S; N] {
         let leaves = self.leaves(constants.count());
         let mut first = 2 * leaves * self.node + (node - leaves) * self.leaf * self.row;

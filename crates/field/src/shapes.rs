@@ -50,6 +50,7 @@ pub mod extrude;
 mod facets;
 pub mod formula;
 pub mod gear;
+pub mod graph;
 pub mod groove;
 pub mod heart;
 pub mod horseshoe;
@@ -144,6 +145,7 @@ pub mod triangle;
 pub mod truncated_octahedron;
 pub mod tube;
 pub mod twist;
+pub mod under_graph;
 pub mod uneven_capsule;
 pub mod union;
 pub mod warp;
@@ -193,6 +195,7 @@ pub use exponential::*;
 pub use extrude::*;
 pub use formula::*;
 pub use gear::*;
+pub use graph::*;
 pub use groove::*;
 pub use heart::*;
 pub use horseshoe::*;
@@ -284,6 +287,7 @@ pub use triangle::*;
 pub use truncated_octahedron::*;
 pub use tube::*;
 pub use twist::*;
+pub use under_graph::*;
 pub use uneven_capsule::*;
 pub use union::*;
 pub use warp::*;
@@ -345,6 +349,7 @@ pub static ALL: &[&Shape] = &[
     &EXTRUDE,
     &FORMULA,
     &GEAR,
+    &GRAPH,
     &GROOVE,
     &HEART,
     &HORSESHOE,
@@ -442,6 +447,7 @@ pub static ALL: &[&Shape] = &[
     &TRUNCATED_OCTAHEDRON,
     &TUBE,
     &TWIST,
+    &UNDER_GRAPH,
     &UNEVEN_CAPSULE,
     &UNION,
     &WARP,

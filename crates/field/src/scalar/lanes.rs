@@ -7,7 +7,7 @@
 //! `libm` lane by lane. [`crate::elementary`] states their errors. Integer powers are multiplied out: their error grows by
 //! up to a unit in the last place with each factor.
 
-use super::Scalar;
+use super::{Constants, Scalar, Tree, least_near_first};
 use fearless_simd::{ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdMask};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -233,5 +233,17 @@ impl<I: Simd> Scalar for Lanes<I> {
     #[inline(always)]
     fn pow(self, exponent: Self) -> Self {
         exponential::pow(self, exponent)
+    }
+
+    #[inline(always)]
+    fn least_in_tree(
+        constants: &Constants<'_, Self>,
+        tree: Tree,
+        most: Self,
+        bound: impl Fn(&Constants<'_, Self>) -> Self,
+        value: impl Fn(&Constants<'_, Self>) -> Self,
+        _raised: impl Fn(Self) -> Self,
+    ) -> Self {
+        least_near_first(constants, tree, most, bound, value)
     }
 }

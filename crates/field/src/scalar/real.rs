@@ -5,7 +5,7 @@
 //! bits, 600 000 random arguments each, no function was off by more than 0.9 units, but the arc tangent of two arguments
 //! by ATAN2.
 
-use super::Scalar;
+use super::{Constants, Scalar, Tree, least_near_first};
 
 impl Scalar for f64 {
     type Mask = bool;
@@ -104,5 +104,17 @@ impl Scalar for f64 {
     #[inline(always)]
     fn pow(self, exponent: Self) -> Self {
         libm::pow(self, exponent)
+    }
+
+    #[inline(always)]
+    fn least_in_tree(
+        constants: &Constants<'_, Self>,
+        tree: Tree,
+        most: Self,
+        bound: impl Fn(&Constants<'_, Self>) -> Self,
+        value: impl Fn(&Constants<'_, Self>) -> Self,
+        _raised: impl Fn(Self) -> Self,
+    ) -> Self {
+        least_near_first(constants, tree, most, bound, value)
     }
 }

@@ -77,6 +77,8 @@ pub enum ParamKind {
     /// A region of space: stored as 0 for all of it, or 1 and a sphere's radius, or 2 and a box's three full edge lengths;
     /// always four numbers.
     Region,
+    /// A list of numbers.
+    Numbers,
     /// A list of points of the plane: x, y.
     Points2,
     /// A list of points: x, y, z.
@@ -130,6 +132,7 @@ impl ParamKind {
             | Self::Angle
             | Self::Choice(_)
             | Self::Text
+            | Self::Numbers
             | Self::Knots
             | Self::Flag => 1,
             Self::Size2 | Self::Points2 => 2,
@@ -166,6 +169,7 @@ impl ParamKind {
                 | Self::Contours
                 | Self::Net
                 | Self::WeightedNet
+                | Self::Numbers
                 | Self::Text
         )
     }

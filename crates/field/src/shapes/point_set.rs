@@ -70,12 +70,6 @@ pub(crate) fn square_to_point<S: Scalar>(p: Vec3<S>, row: &Constants<'_, S>) -> 
     q.x.square() + q.y.square() + q.z.square()
 }
 
-/// The least of the squares so far and that of the distance from the point in a row.
-#[inline(always)]
-fn least<S: Scalar>(p: Vec3<S>, [least]: [S; 1], row: &Constants<'_, S>) -> [S; 1] {
-    [square_to_point(p, row).min(least)]
-}
-
 /// The distance whose square this is; not 0, since there it has no slope.
 #[inline(always)]
 pub(crate) fn length<S: Scalar>(square: S) -> S {
@@ -86,25 +80,16 @@ pub(crate) fn length<S: Scalar>(square: S) -> S {
 #[inline(always)]
 pub(crate) fn nearest<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
     let far = p.x.lift(f64::from(f32::MAX));
-    let [near] = S::fold_leaf(
+    let square = S::least_in_tree(
         c,
         TREE,
-        [far],
+        far,
         #[inline(always)]
         |node| square_to_box(p, node),
         #[inline(always)]
-        |found, row| least(p, found, row),
-    );
-    // The nearest point itself is to be found again, the first one of several.
-    let above = near * (1.0 + MARGIN) + far.lift(LEAST);
-    let [square] = S::fold_tree(
-        c,
-        TREE,
-        [above],
+        |row| square_to_point(p, row),
         #[inline(always)]
-        |node| square_to_box(p, node),
-        #[inline(always)]
-        |found, row| least(p, found, row),
+        |square| square * (1.0 + MARGIN) + far.lift(LEAST),
     );
     length(square)
 }

@@ -355,7 +355,11 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         // Tested by themselves: what is inside, their own curves say.
         ("superellipse" | "gear" | "spiral" | "logarithmic_spiral" | "clothoid", _) => return None,
         ("text" | "svg" | "svg_path" | "bezier" | "b_spline" | "spline", _) => return None,
-        ("stroke" | "nurbs" | "tapered_bezier" | "tapered_b_spline" | "tapered_spline" | "sweep", _) => return None,
+        (
+            "stroke" | "graph" | "under_graph" | "nurbs" | "tapered_bezier" | "tapered_b_spline" | "tapered_spline"
+            | "sweep",
+            _,
+        ) => return None,
         ("bezier_patch" | "b_spline_patch" | "nurbs_patch", _) => return None,
         (name, _) if is_blend(name) || is_carved(name) => return None,
         (name, args) => panic!("say in the membership test what lies inside {name} with {} numbers", args.len()),

@@ -75,6 +75,7 @@ fn arguments(kind: ParamKind, random: &mut Random, out: &mut Vec<Value>) {
                 push(radius * angle.sin());
             }
         }
+        ParamKind::Numbers => (0..1 + random.below(4)).for_each(|_| push(random.range(-0.8, 0.8))),
         ParamKind::Points3 => (0..3 * (2 + random.below(4))).for_each(|_| push(random.range(-1.0, 1.0))),
         ParamKind::Balls => {
             for index in 0..2 + random.below(4) {

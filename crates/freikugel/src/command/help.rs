@@ -158,6 +158,7 @@ fn values(param: &Param) -> (String, String) {
         ParamKind::Quaternion => "[x, y, z, w]".into(),
         ParamKind::Quadruple => "[real, i, j, k]".into(),
         ParamKind::Region => "{ \"sphere\": radius } or { \"box\": size }".into(),
+        ParamKind::Numbers => "a list of numbers".into(),
         ParamKind::Text => "a text, or { \"file\": NAME }".into(),
         ParamKind::Points2 => "a list of [x, y], or { \"file\": NAME } with a row of numbers for each".into(),
         ParamKind::Points3 => "a list of [x, y, z], or { \"file\": NAME } with a row of numbers for each".into(),

@@ -62,6 +62,13 @@ impl Notation<Vec<f64>> for ParamKind {
             (Self::HalfSpaces, _) => entries(reader, value, "half-spaces, [x, y, z, d]", ["x", "y", "z", "d"])?,
             (Self::Contours, _) => contours(reader, value)?,
             (Self::Knots, _) => knots(reader, value)?,
+            (Self::Numbers, Written::Array(array)) => {
+                each(reader, &array.elements, "entry", |reader, _, number| Some(vec![reader.number(number)?]))?
+            }
+            (Self::Numbers, _) => {
+                reader.mistyped(value, "a list of numbers", None);
+                return None;
+            }
             (Self::Net, _) => net(reader, value, "points, [x, y, z]", ["x", "y", "z"])?,
             (Self::WeightedNet, _) => {
                 net(reader, value, "points with a weight, [x, y, z, weight]", ["x", "y", "z", "weight"])?
@@ -135,13 +142,15 @@ impl Notation<Vec<f64>> for ParamKind {
             | Self::Counts(..)
             | Self::Factors
             | Self::Quaternion
-            | Self::Quadruple => list(value),
+            | Self::Quadruple
+            | Self::Numbers => list(value),
         })
     }
 
     fn schema(&self, definitions: &mut Definitions) -> Json {
         let factor = || json!({ "type": "number", "not": { "const": 0 } });
         let length = || json!({ "type": "number", "exclusiveMinimum": 0 });
+        let numbers = || json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 });
         let three = |item: Json| json!({ "type": "array", "items": item, "minItems": 3, "maxItems": 3 });
         match *self {
             Self::Number | Self::Angle => json!({ "type": "number" }),
@@ -184,10 +193,8 @@ impl Notation<Vec<f64>> for ParamKind {
                 let list = json!({ "type": "array", "items": numbers_schema(self.width()), "minItems": 1 });
                 json!({ "anyOf": [list, FileNotation.schema(definitions)] })
             }
-            Self::Knots => {
-                let list = json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 });
-                json!({ "anyOf": [{ "enum": Self::KNOTS }, list] })
-            }
+            Self::Numbers => numbers(),
+            Self::Knots => json!({ "anyOf": [{ "enum": Self::KNOTS }, numbers()] }),
             Self::Net | Self::WeightedNet => {
                 let row = json!({ "type": "array", "items": numbers_schema(self.width() - 1), "minItems": 2 });
                 json!({ "type": "array", "items": row, "minItems": 2 })
@@ -483,6 +490,7 @@ mod tests {
             (ParamKind::Flag, json!(false)),
             (ParamKind::Size, json!([1, 2, 3])),
             (ParamKind::HalfSpaces, json!([[1, 0, 0, 0.5]])),
+            (ParamKind::Numbers, json!([1, 0.5, -2])),
             (ParamKind::Points2, json!([[1, 0], [0.5, 2], [0, 1]])),
             (ParamKind::Points3, json!([[1, 0, 0.5], [0.5, 2, 3]])),
             (ParamKind::Matrix, json!([[1, 0.5, 0], [0, 1, -2], [0, 0, 1]])),
