@@ -279,7 +279,13 @@ pub trait Scalar:
                     node *= 2;
                     continue;
                 }
-                state = tree.fold_rows(constants, node, state, &step);
+                state = tree.fold_rows(
+                    constants,
+                    node,
+                    state,
+                    #[inline(always)]
+                    |state, row| step(state, row),
+                );
             }
             // What follows all below this node: its sibling, or that of the nearest node above that is a left one.
             node += 1;
@@ -310,7 +316,7 @@ pub trait Scalar:
             );
             node = 2 * node + usize::from(Self::any(right.lt(left)));
         }
-        tree.fold_rows(constants, node, state, &step)
+        tree.fold_rows(constants, node, state, step)
     }
 
     /// The least `value` of all rows in the leaves of a tree, which is below `most`; none is less than the `bound` of a node above
@@ -331,7 +337,8 @@ pub trait Scalar:
             constants,
             tree,
             [most],
-            &bound,
+            #[inline(always)]
+            |node| bound(node),
             #[inline(always)]
             |[least], row| [value(row).min(least)],
         );
@@ -339,7 +346,8 @@ pub trait Scalar:
             constants,
             tree,
             [raised(near)],
-            &bound,
+            #[inline(always)]
+            |node| bound(node),
             #[inline(always)]
             |[least], row| [value(row).min(least)],
         );
