@@ -300,7 +300,7 @@ pub(crate) struct Reach(pub(crate) Block);
 
 impl Default for Reach {
     fn default() -> Self {
-        Self(Block::of(f32::INFINITY))
+        Self(Block([f32::INFINITY; BATCH]))
     }
 }
 

@@ -121,5 +121,5 @@ impl<'p> Encloser<'p> {
 }
 
 /// The field of nothing.
-static FAR: Block = Block::of(f32::INFINITY);
-static ZERO: Block = Block::of(0.0);
+static FAR: Block = Block([f32::INFINITY; BATCH]);
+static ZERO: Block = Block([0.0; BATCH]);

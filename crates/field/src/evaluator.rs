@@ -265,8 +265,8 @@ impl<'p> Evaluator<'p> {
 }
 
 /// Shares of nothing, and of all.
-static NONE: Block = Block::of(0.0);
-static ALL: Block = Block::of(1.0);
+static NONE: Block = Block([0.0; BATCH]);
+static ALL: Block = Block([1.0; BATCH]);
 
 /// The distances to nothing.
 static NOWHERE: [f32; BATCH] = [f32::INFINITY; BATCH];

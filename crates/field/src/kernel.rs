@@ -24,23 +24,13 @@ pub const BATCH: usize = 256;
 pub const WIDEST: usize = 16;
 
 /// One component of the numbers of a batch.
-///
-/// Blocks that follow one another lie a vector farther apart than they are long: four of them would otherwise fill a page, and
-/// reading one number would wait for another one to be written that lies as far into its page.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
-pub struct Block(pub [f32; BATCH], [f32; WIDEST]);
-
-impl Block {
-    /// The same number for all points.
-    pub const fn of(number: f32) -> Self {
-        Self([number; BATCH], [0.0; WIDEST])
-    }
-}
+pub struct Block(pub [f32; BATCH]);
 
 impl Default for Block {
     fn default() -> Self {
-        Self::of(0.0)
+        Self([0.0; BATCH])
     }
 }
 
