@@ -97,8 +97,8 @@ fn what_lies_under_graphs_is_between_them_and_the_base() {
 #[test]
 fn graphs_that_cannot_be_are_refused() {
     for (field, part) in [
-        (graph(0.1, 1.0, 1.0, [1.0]).into(), "`to` of `graph` must be above `from`"),
-        (under_graph(1.0, 0.0, [1.0]).into(), "`to` of `under_graph` must be above `from`"),
+        (graph(0.1, 1.0, 1.0, [1.0]).into(), "`to` of `graph` is not above `from`"),
+        (under_graph(1.0, 0.0, [1.0]).into(), "`to` of `under_graph` is not above `from`"),
         (graph(0.1, 0.0, 1.0, [0.5; 22]).into(), "has 22 coefficients; at most 21 are possible"),
         (under_graph(0.0, 1.0, [0.0, 0.0]).into(), "surrounds nothing"),
     ] {

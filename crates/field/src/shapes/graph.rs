@@ -45,7 +45,7 @@ pub(crate) const COEFFICIENTS: Param = Param::required(
 /// The fault.
 pub(crate) fn check(name: &str, [from, to]: [f64; 2], coefficients: &[f64]) -> Result<(), String> {
     if to <= from {
-        return Err(format!("`to` of `{name}` must be above `from`"));
+        return Err(format!("`to` of `{name}` is not above `from`"));
     }
     if coefficients.len() > MOST_DEGREE + 1 {
         return Err(format!(
