@@ -412,11 +412,12 @@ fn primitive_model(level: Level, call: PrimitiveCall<'_, Models>) {
     let mut job =
         PrimitiveJob { points: &middle, at, constants, before: None, out: std::slice::from_mut(&mut own[0]), count };
     (table.kernels.values)(level, &mut job);
-    let size = |lane: usize| -> f32 { (0..axes(table)).map(|axis| middle[axis].0[lane].abs() + at[axis].abs()).sum() };
+    let axes = axes(table);
+    let size = |lane: usize| -> f32 { (0..axes).map(|axis| middle[axis].0[lane].abs() + at[axis].abs()).sum() };
     for lane in 0..count {
         let value = own[0].0[lane];
         let mut radius = 0.0;
-        for point in points.chunks_exact(Models::COMPONENTS).take(axes(table)) {
+        for point in points.chunks_exact(Models::COMPONENTS).take(axes) {
             let reach: f32 = point[1..].iter().map(|term| term.0[lane].abs()).sum();
             radius += reach * reach;
         }

@@ -49,6 +49,9 @@ pub trait Scalar:
     /// Whether it stands for all numbers of a range. Formulas may then take more care, which others needn't.
     const IS_ENCLOSURE: bool = false;
 
+    /// Whether it is a number and nothing else, so that of equal ones it makes no difference which is taken.
+    const IS_PLAIN: bool = false;
+
     /// The constant `c`, as a scalar of the kind of `self`.
     fn lift(self, c: f64) -> Self;
 
@@ -333,6 +336,9 @@ pub trait Scalar:
         value: impl Fn(&Constants<'_, Self>) -> Self,
         raised: impl Fn(Self) -> Self,
     ) -> Self {
+        if Self::IS_PLAIN {
+            return least_near_first(constants, tree, most, bound, value);
+        }
         let [near] = Self::fold_leaf(
             constants,
             tree,

@@ -7,7 +7,7 @@
 //! `libm` lane by lane. [`crate::elementary`] states their errors. Integer powers are multiplied out: their error grows by
 //! up to a unit in the last place with each factor.
 
-use super::{Constants, Scalar, Tree, least_near_first};
+use super::Scalar;
 use fearless_simd::{ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdMask};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -128,6 +128,8 @@ impl<I: Simd> Scalar for Lanes<I> {
     type Mask = LaneMask<I>;
     type Table = [f32];
 
+    const IS_PLAIN: bool = true;
+
     #[inline(always)]
     fn lift(self, c: f64) -> Self {
         Self::splat(self.0.token(), c as f32)
@@ -233,17 +235,5 @@ impl<I: Simd> Scalar for Lanes<I> {
     #[inline(always)]
     fn pow(self, exponent: Self) -> Self {
         exponential::pow(self, exponent)
-    }
-
-    #[inline(always)]
-    fn least_in_tree(
-        constants: &Constants<'_, Self>,
-        tree: Tree,
-        most: Self,
-        bound: impl Fn(&Constants<'_, Self>) -> Self,
-        value: impl Fn(&Constants<'_, Self>) -> Self,
-        _raised: impl Fn(Self) -> Self,
-    ) -> Self {
-        least_near_first(constants, tree, most, bound, value)
     }
 }

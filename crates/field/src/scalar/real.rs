@@ -5,11 +5,13 @@
 //! bits, 600 000 random arguments each, no function was off by more than 0.9 units, but the arc tangent of two arguments
 //! by ATAN2.
 
-use super::{Constants, Scalar, Tree, least_near_first};
+use super::Scalar;
 
 impl Scalar for f64 {
     type Mask = bool;
     type Table = [f64];
+
+    const IS_PLAIN: bool = true;
 
     #[inline(always)]
     fn lift(self, c: f64) -> Self {
@@ -104,17 +106,5 @@ impl Scalar for f64 {
     #[inline(always)]
     fn pow(self, exponent: Self) -> Self {
         libm::pow(self, exponent)
-    }
-
-    #[inline(always)]
-    fn least_in_tree(
-        constants: &Constants<'_, Self>,
-        tree: Tree,
-        most: Self,
-        bound: impl Fn(&Constants<'_, Self>) -> Self,
-        value: impl Fn(&Constants<'_, Self>) -> Self,
-        _raised: impl Fn(Self) -> Self,
-    ) -> Self {
-        least_near_first(constants, tree, most, bound, value)
     }
 }
