@@ -313,10 +313,9 @@ pub trait Scalar:
         let leaves = tree.leaves(constants.count());
         let mut node = 1;
         while node < leaves {
-            let [left, right] = [2 * node, 2 * node + 1].map(
-                #[inline(always)]
-                |node| bound(&tree.node_of(constants, node)),
-            );
+            // One by one: a function of the standard library between would lose the instruction set.
+            let left = bound(&tree.node_of(constants, 2 * node));
+            let right = bound(&tree.node_of(constants, 2 * node + 1));
             node = 2 * node + usize::from(Self::any(right.lt(left)));
         }
         tree.fold_rows(constants, node, state, step)
@@ -376,10 +375,9 @@ fn least_near_first<S: Scalar>(
     let (mut least, mut node) = (most, 1);
     loop {
         if node < leaves {
-            let [left, right] = [2 * node, 2 * node + 1].map(
-                #[inline(always)]
-                |node| bound(&tree.node_of(constants, node)),
-            );
+            // One by one: a function of the standard library between would lose the instruction set.
+            let left = bound(&tree.node_of(constants, 2 * node));
+            let right = bound(&tree.node_of(constants, 2 * node + 1));
             let is_right = S::any(right.lt(left));
             let (near, far) = if is_right { (right, left) } else { (left, right) };
             if S::any(far.lt(least)) {

@@ -1,196 +1,137 @@
 //! The inlining guard: a helper that is not inlined into a kernel is compiled for the baseline instruction set and takes
 //! the whole kernel down with it. Such a kernel is no faster, mostly far slower, on AVX2 than on SSE2.
+//!
+//! Operations on wide lanes can't be inlined into such a helper: it calls them. The code of this very program is searched for
+//! such calls, which finds them in all kernels, on every processor. Loops over plain numbers, which the compiler turns into
+//! wide ones by itself, have no such calls; of these the speed is measured.
+#![cfg(all(target_arch = "x86_64", target_os = "linux", feature = "instruction-sets"))]
 
 mod common;
 
 use common::{Random, call};
-use freikugel_field::elementary::FUNCTIONS;
-use freikugel_field::kernel::{BATCH, Block, CombineJob, MapJob, ModifyJob, PrimitiveJob};
-use freikugel_field::shape::ProductTable;
+use fearless_simd::{Avx2, SimdBase, f32x8};
+use freikugel_field::kernel::BATCH;
 use freikugel_field::simd::{self, Level};
-use freikugel_field::{Evaluator, Kind, Points, Shape, Structure, shapes};
+use freikugel_field::{Evaluator, Points, Structure, shapes};
 use glam::DVec3;
+use object::{Object, ObjectSection, ObjectSymbol, SymbolKind};
+use rustc_demangle::demangle;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-/// Twice the width gives up to twice the speed; this much is demanded. A kernel with a helper that is not inlined is no faster.
-///
-/// It was 1.5 until an Intel Xeon (family 6, model 167) gave 1.31 for the values of the torus and 1.48 for the complement,
-/// repeatably; why has not been found out.
-const GAIN: f64 = 1.15;
+/// How functions are called on x86-64: one byte, and the distance from the end of the instruction in four.
+const CALLS: [u8; 2] = [0xe8, 0xe9];
 
-/// As [`GAIN`], for kernels that compute little for each number that they read and write: on a processor where that takes most of
-/// the time, they gained 0.78 and more without optimisation across functions. Functions that are not inlined gain 0.25 at most there.
-const GAIN_OF_OPERATORS: f64 = 0.6;
+/// The functions of a program by where they stand, with their sizes and names.
+type Functions = BTreeMap<u64, (u64, String)>;
 
-/// As [`GAIN`], for the loops of fractals, which gave between 1.07 and 1.36 there. Whether that lies in lanes that wait for each
-/// other or in code that could be better is open; this still notices a kernel that falls far behind.
-const GAIN_OF_LOOPS: f64 = 0.8;
-
-/// Calls in one measurement: enough that the clock's resolution does not matter.
-const CALLS: usize = 40;
-
-/// The best of so many measurements is free of interruptions on a busy machine.
-const RUNS: usize = 25;
-
-/// A kernel that does not reach the gain is measured again so many times before it counts as a failure.
-const TRIES: usize = 60;
-
-/// Something that runs one kernel once, on an instruction set and over so many points.
-type Work = Box<dyn FnMut(Level, usize)>;
-
-/// Every lane kernel of a shape.
-fn kernels(shape: &'static Shape) -> Vec<(&'static str, Work)> {
-    let mut random = Random::new(4);
-    let mut blocks = |count: usize| -> Vec<Block> {
-        let mut blocks = vec![Block::default(); count];
-        blocks.iter_mut().for_each(|b| b.0.iter_mut().for_each(|v| *v = random.range(-2.0, 2.0) as f32));
-        blocks
-    };
-    let field = call(shape, 0, &mut Random::new(3));
-    let args = field.node().numbers();
-    let single = |constants: Vec<f64>| constants.into_iter().map(|c| c as f32).collect::<Vec<f32>>();
-    match &shape.kind {
-        Kind::Primitive(table) => [
-            ("values", table.kernels.values, 1),
-            ("gradients", table.kernels.gradients, 4),
-            ("seconds", table.kernels.seconds, 4),
-        ]
-        .into_iter()
-        .map(|(name, kernel, components)| {
-            let (points, mut out) = (blocks(3 * components), blocks(components));
-            let constants = single((table.prepare)(&args));
-            let work: Work = Box::new(move |level, count| {
-                let (at, before) = (&[0.1, 0.2, 0.3], None);
-                let (points, constants, out) = (&points, &constants, &mut out);
-                kernel(level, &mut PrimitiveJob { points, at, constants, before, out, count });
-            });
-            (name, work)
-        })
-        .collect(),
-        Kind::Combine(table) | Kind::Product(ProductTable { combine: table, .. }) => [
-            ("values", table.kernels.values, 1),
-            ("gradients", table.kernels.gradients, 4),
-            ("seconds", table.kernels.seconds, 4),
-            ("shares", table.kernels.shares, 1),
-        ]
-        .into_iter()
-        .map(|(name, kernel, components)| {
-            let (a, b, mut out) = (blocks(components), blocks(components), blocks(components));
-            let constants = single((table.prepare)(&args));
-            let work: Work = Box::new(move |level, count| {
-                kernel(level, &mut CombineJob { a: &a, b: &b, constants: &constants, out: &mut out, count });
-            });
-            (name, work)
-        })
-        .collect(),
-        Kind::Modify(table) => [
-            ("values", table.kernels.values, 1),
-            ("gradients", table.kernels.gradients, 4),
-            ("seconds", table.kernels.seconds, 4),
-        ]
-        .into_iter()
-        .map(|(name, kernel, components)| {
-            let (from, mut out) = (blocks(components), blocks(components));
-            let constants = single((table.prepare)(&args));
-            let work: Work = Box::new(move |level, count| {
-                kernel(level, &mut ModifyJob { from: &from, constants: &constants, out: &mut out, count });
-            });
-            (name, work)
-        })
-        .collect(),
-        Kind::Map(table) | Kind::Endless { fold: table, .. } => [
-            ("values", table.kernels.values, 3),
-            ("gradients", table.kernels.gradients, 12),
-            ("seconds", table.kernels.seconds, 12),
-        ]
-        .into_iter()
-        .map(|(name, kernel, components)| {
-            let (from, mut to) = (blocks(components), blocks(components));
-            let constants = single((table.prepare)(&args));
-            let work: Work = Box::new(move |level, count| {
-                let at = &[0.0; 3];
-                kernel(level, &mut MapJob { from: &from, at, constants: &constants, to: &mut to, count });
-            });
-            (name, work)
-        })
-        .collect(),
-        Kind::Place(_)
-        | Kind::Copies(_)
-        | Kind::Loft
-        | Kind::PerimeterSweep
-        | Kind::Paint
-        | Kind::Formula
-        | Kind::Warp
-        | Kind::Displace
-        | Kind::Twist => Vec::new(),
-    }
+/// An operation of a wide instruction set.
+fn is_operation(name: &str) -> bool {
+    (name.contains("::avx2::") || name.contains("::avx512::")) && name.contains("fearless_simd_kernel")
 }
 
-/// The affine map has one kernel for all placing shapes, measured through a program of several maps.
-fn affine() -> Work {
-    let many = (0..8).map(|i| call(&shapes::ROTATE, 0, &mut Random::new(i)));
-    let structure = Structure::compile(&many.collect::<Vec<_>>()).expect("sound fields");
-    let program = structure.program(DVec3::ZERO);
-    Box::new(move |level, count| {
-        let (x, mut values) = ([0.5; BATCH], [0.0; BATCH]);
-        let x = &x[..count];
-        Evaluator::with_level(&program, level).values(Points { x, y: x, z: x }, &mut values[..count]);
+/// What is compiled for a wide instruction set.
+fn is_wide(name: &str) -> bool {
+    is_operation(name) || name.contains("vectorize_avx2") || name.contains("vectorize_avx512")
+}
+
+/// What a function whose code is `code` and which stands at `address` calls or goes on as.
+fn called(address: u64, code: &[u8]) -> impl Iterator<Item = u64> {
+    code.windows(5).enumerate().filter(|(_, bytes)| CALLS.contains(&bytes[0])).map(move |(offset, bytes)| {
+        let distance = i32::from_le_bytes(bytes[1..].try_into().expect("four bytes"));
+        (address + offset as u64 + 5).wrapping_add_signed(distance.into())
     })
 }
 
-/// The elementary functions by themselves.
-fn functions() -> impl Iterator<Item = (String, Work)> {
-    FUNCTIONS.iter().map(|function| {
-        let mut random = Random::new(5);
-        let mut numbers = || (0..BATCH).map(|_| random.range(0.0, 1.0) as f32).collect::<Vec<f32>>();
-        let (a, b, mut out) = (numbers(), numbers(), [0.0; BATCH]);
-        let work: Work = Box::new(move |level, count| function.apply(level, &a, &b, &mut out[..count]));
-        (format!("function {}", function.name), work)
-    })
+/// Functions that are not compiled for a wide instruction set and call operations of one, with these operations.
+fn astray() -> BTreeSet<(String, String)> {
+    let program = std::fs::read(std::env::current_exe().expect("this program")).expect("its file");
+    let program = object::File::parse(&*program).expect("an executable file");
+    let functions: Functions = program
+        .symbols()
+        .filter(|symbol| symbol.kind() == SymbolKind::Text)
+        .map(|symbol| (symbol.address(), (symbol.size(), format!("{:#}", demangle(symbol.name().expect("a name"))))))
+        .collect();
+    let operations: HashSet<u64> =
+        functions.iter().filter(|(_, (_, name))| is_operation(name)).map(|(&address, _)| address).collect();
+    let code = program.section_by_name(".text").expect("a program has code");
+    functions
+        .iter()
+        .filter(|(_, (_, name))| !is_wide(name))
+        .filter_map(|(&address, (size, name))| Some((address, name, code.data_range(address, *size).ok()??)))
+        .flat_map(|(address, name, code)| called(address, code).map(move |callee| (name, callee)))
+        .filter(|(_, callee)| operations.contains(callee))
+        .map(|(name, callee)| (name.clone(), functions[&callee].1.clone()))
+        .collect()
+}
+
+/// A function as it should not be.
+#[inline(never)]
+fn outside(level: Avx2, number: f32) -> f32x8<Avx2> {
+    f32x8::splat(level, number) * number
 }
 
 #[test]
-fn every_kernel_gains_from_wider_vectors() {
-    let levels = simd::available();
-    let [narrow, wide, ..] = levels[..] else {
+fn kernels_are_inlined_whole() {
+    if let Some(level) = simd::best().as_avx2() {
+        black_box(outside(level, black_box(2.0)));
+    }
+    // All kernels are part of this program, as they can be reached from here.
+    black_box(shapes::ALL);
+    let (known, others): (Vec<_>, Vec<_>) =
+        astray().into_iter().partition(|(name, _)| name.ends_with("inlining::outside"));
+    assert!(!known.is_empty(), "the function that stands outside on purpose is not found");
+    assert!(others.is_empty(), "functions that are not compiled for the instruction set they use: {others:#?}");
+}
+
+/// Twice the width gives up to twice the speed; this much is demanded. Loops that are not compiled for it are no faster.
+const GAIN: f64 = 1.15;
+
+/// Calls in one measurement: enough that the clock's resolution does not matter.
+const RUNS: usize = 40;
+
+/// The best of so many measurements is free of interruptions on a busy machine.
+const MEASUREMENTS: usize = 25;
+
+/// What does not reach the gain is measured again so many times before it counts as a failure.
+const TRIES: usize = 60;
+
+/// How long one run takes over so many points on an instruction set.
+fn time(work: &mut impl FnMut(Level, usize), level: Level, count: usize) -> Duration {
+    let start = Instant::now();
+    (0..RUNS).for_each(|_| work(level, count));
+    start.elapsed()
+}
+
+/// How many times as fast the wider instruction set is. What a call costs without any points is the same on both.
+fn gain(mut work: impl FnMut(Level, usize), narrow: Level, wide: Level) -> f64 {
+    let mut best = [[Duration::MAX; 2]; 2];
+    for _ in 0..MEASUREMENTS {
+        for (level, best) in [narrow, wide].into_iter().zip(&mut best) {
+            for (count, best) in [0, BATCH].into_iter().zip(best) {
+                *best = (*best).min(time(&mut work, level, count));
+            }
+        }
+    }
+    let [narrow, wide] = best.map(|[call, all]| all.saturating_sub(call).as_secs_f64());
+    narrow / wide.max(f64::MIN_POSITIVE)
+}
+
+#[test]
+fn affine_maps_gain_from_wider_vectors() {
+    let [narrow, wide, ..] = simd::available()[..] else {
         eprintln!("skipped: this machine has one instruction set only");
         return;
     };
-    let with_kernels = shapes::ALL.iter().filter(|shape| common::is_measured(shape));
-    let of_shapes = with_kernels.flat_map(|shape| {
-        let demanded = match &shape.kind {
-            Kind::Primitive(table) if table.is_loose => GAIN_OF_LOOPS,
-            Kind::Combine(_) | Kind::Product(_) | Kind::Modify(_) => GAIN_OF_OPERATORS,
-            _ => GAIN,
-        };
-        kernels(shape).into_iter().map(move |(kind, work)| (format!("{} {kind}", shape.about.name), work, demanded))
-    });
-    let others = functions().chain([("affine maps".to_owned(), affine())]).map(|(name, work)| (name, work, GAIN));
-    let mut failures = Vec::new();
-    for (name, mut work, demanded) in of_shapes.chain(others) {
-        let mut gain: f64 = 0.0;
-        for _ in 0..TRIES {
-            // What a call costs without any points is the same on both; for the cheapest kernels it is half of all.
-            let mut best = [[Duration::MAX; 2]; 2];
-            for _ in 0..RUNS {
-                for (level, best) in [narrow, wide].into_iter().zip(&mut best) {
-                    for (count, best) in [0, BATCH].into_iter().zip(best) {
-                        let start = Instant::now();
-                        (0..CALLS).for_each(|_| work(level, count));
-                        *best = (*best).min(start.elapsed());
-                    }
-                }
-            }
-            let [narrow, wide] = best.map(|[call, all]| all.saturating_sub(call).as_secs_f64());
-            gain = gain.max(narrow / wide.max(f64::MIN_POSITIVE));
-            if gain >= demanded {
-                break;
-            }
-        }
-        println!("{name:36} {gain:.2}");
-        if gain < demanded {
-            failures.push(format!("{name} gains only {gain:.2}"));
-        }
-    }
-    assert!(failures.is_empty(), "not inlined: {failures:#?}");
+    let many = (0..8).map(|i| call(&shapes::ROTATE, 0, &mut Random::new(i)));
+    let structure = Structure::compile(&many.collect::<Vec<_>>()).expect("sound fields");
+    let program = structure.program(DVec3::ZERO);
+    let mut work = |level, count| {
+        let (x, mut values) = ([0.5; BATCH], [0.0; BATCH]);
+        let x = &x[..count];
+        Evaluator::with_level(&program, level).values(Points { x, y: x, z: x }, &mut values[..count]);
+    };
+    let enough = (0..TRIES).map(|_| gain(&mut work, narrow, wide)).find(|&gain| gain >= GAIN);
+    assert!(enough.is_some(), "affine maps gain less than {GAIN}");
 }

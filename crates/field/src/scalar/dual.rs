@@ -341,8 +341,12 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
 
     #[inline(always)]
     fn agreed(self, other: Self) -> Self {
-        let gradient = std::array::from_fn(|axis| self.gradient[axis].agreed(other.gradient[axis]));
-        Self { value: self.value.agreed(other.value), gradient }
+        self.zip(
+            other,
+            self.value.agreed(other.value),
+            #[inline(always)]
+            |own, other| own.agreed(other),
+        )
     }
 
     #[inline(always)]

@@ -11,7 +11,6 @@
 
 use super::{Intervals, LaneTrilean, Lanes, Scalar};
 use fearless_simd::Simd;
-use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The degree of the polynomials. With 4, a multiplication costs little more than one of intervals with derivatives.
@@ -43,6 +42,34 @@ pub struct Taylor<I: Simd> {
     pub p: [Lanes<I>; TERMS],
     /// The bound, which is not negative.
     pub r: Lanes<I>,
+}
+
+/// The coefficients of all powers. A function that takes a closure, as those of the standard library, would lose the instruction set.
+macro_rules! powers {
+    ($power:ident => $coefficient:expr) => {
+        [
+            {
+                let $power = 0;
+                $coefficient
+            },
+            {
+                let $power = 1;
+                $coefficient
+            },
+            {
+                let $power = 2;
+                $coefficient
+            },
+            {
+                let $power = 3;
+                $coefficient
+            },
+            {
+                let $power = 4;
+                $coefficient
+            },
+        ]
+    };
 }
 
 /// The sum of absolute values.
@@ -100,7 +127,7 @@ impl<I: Simd> Taylor<I> {
     /// What the functions have beyond the constant term, and how large it can be.
     #[inline(always)]
     fn rest(self) -> (Self, Lanes<I>) {
-        let rest = Self { p: from_fn(|power| if power == 0 { self.r.lift(0.0) } else { self.p[power] }), r: self.r };
+        let rest = Self { p: powers!(power => if power == 0 { self.r.lift(0.0) } else { self.p[power] }), r: self.r };
         (rest, rest.magnitude())
     }
 
@@ -151,14 +178,14 @@ impl<I: Simd> Taylor<I> {
         let (rest, reach) = self.rest();
         let slope = Self::constant_within(derivative);
         let product = rest.scaled_by(slope.p[0]);
-        let sum = Self { p: from_fn(|power| if power == 0 { value } else { product.p[power] }), r: product.r };
+        let sum = Self { p: powers!(power => if power == 0 { value } else { product.p[power] }), r: product.r };
         sum.with_slack(slope.r * reach + value.abs() * ELEMENTARY + TINY)
     }
 
     /// `factor` times the functions.
     #[inline(always)]
     pub fn scaled_by(self, factor: Lanes<I>) -> Self {
-        let p = self.p.map(|term| term * factor);
+        let p = powers!(power => self.p[power] * factor);
         let r = (self.r * factor.abs() + size(&p) * UNIT) * WIDER + TINY;
         Self { p, r }
     }
@@ -168,7 +195,7 @@ impl<I: Simd> Taylor<I> {
     fn known_if(self, mask: <Lanes<I> as Scalar>::Mask) -> Self {
         let zero = self.r.lift(0.0);
         Self {
-            p: self.p.map(|term| Lanes::select(mask, term, zero)),
+            p: powers!(power => Lanes::select(mask, self.p[power], zero)),
             r: Lanes::select(mask, self.r, self.r.lift(f64::INFINITY)),
         }
     }
@@ -177,20 +204,23 @@ impl<I: Simd> Taylor<I> {
     #[inline(always)]
     fn undefined_if(self, mask: <Lanes<I> as Scalar>::Mask) -> Self {
         let nothing = self.r.lift(f64::NAN);
-        Self { p: self.p.map(|term| Lanes::select(mask, nothing, term)), r: self.r }
+        Self { p: powers!(power => Lanes::select(mask, nothing, self.p[power])), r: self.r }
     }
 
     /// `yes` where `mask` holds, `no` elsewhere.
     #[inline(always)]
     fn choose(mask: <Lanes<I> as Scalar>::Mask, yes: Self, no: Self) -> Self {
-        Self { p: from_fn(|power| Lanes::select(mask, yes.p[power], no.p[power])), r: Lanes::select(mask, yes.r, no.r) }
+        Self {
+            p: powers!(power => Lanes::select(mask, yes.p[power], no.p[power])),
+            r: Lanes::select(mask, yes.r, no.r),
+        }
     }
 
     /// A model of the functions of both.
     #[inline(always)]
     fn hull(self, other: Self) -> Self {
-        let half: [Lanes<I>; TERMS] = from_fn(|power| (self.p[power] - other.p[power]) * 0.5);
-        let middle: [Lanes<I>; TERMS] = from_fn(|power| self.p[power] * 0.5 + other.p[power] * 0.5);
+        let half = powers!(power => (self.p[power] - other.p[power]) * 0.5);
+        let middle = powers!(power => self.p[power] * 0.5 + other.p[power] * 0.5);
         let slack = (size(&self.p) + size(&other.p)) * (2.0 * UNIT) + TINY;
         let both = Self { p: middle, r: (size(&half) + self.r.max(other.r) + slack) * WIDER };
         // What has no value leaves it to the other.
@@ -231,7 +261,7 @@ impl<I: Simd> Add for Taylor<I> {
     type Output = Self;
     #[inline(always)]
     fn add(self, rhs: Self) -> Self {
-        let p = from_fn(|power| self.p[power] + rhs.p[power]);
+        let p = powers!(power => self.p[power] + rhs.p[power]);
         Self { p, r: (self.r + rhs.r + size(&p) * UNIT) * WIDER }
     }
 }
@@ -240,7 +270,7 @@ impl<I: Simd> Sub for Taylor<I> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, rhs: Self) -> Self {
-        let p = from_fn(|power| self.p[power] - rhs.p[power]);
+        let p = powers!(power => self.p[power] - rhs.p[power]);
         Self { p, r: (self.r + rhs.r + size(&p) * UNIT) * WIDER }
     }
 }
@@ -250,7 +280,7 @@ impl<I: Simd> Mul for Taylor<I> {
     #[inline(always)]
     fn mul(self, rhs: Self) -> Self {
         let (a, b) = (self.p, rhs.p);
-        let p = from_fn(|power| {
+        let p = powers!(power => {
             let mut sum = a[0] * b[power];
             for i in 1..=power {
                 sum = sum + a[i] * b[power - i];
@@ -283,7 +313,7 @@ impl<I: Simd> Neg for Taylor<I> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self { p: self.p.map(|term| -term), r: self.r }
+        Self { p: powers!(power => -self.p[power]), r: self.r }
     }
 }
 
@@ -385,7 +415,7 @@ impl<I: Simd> Scalar for Taylor<I> {
     #[inline(always)]
     fn square(self) -> Self {
         let a = self.p;
-        let two = a.map(|term| term + term);
+        let two = powers!(power => a[power] + a[power]);
         let p = [
             a[0].square(),
             two[0] * a[1],
