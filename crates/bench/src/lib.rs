@@ -6,6 +6,7 @@ pub mod evaluation;
 pub mod fields;
 pub mod growth;
 pub mod measure;
+pub mod nearest;
 pub mod peer;
 pub mod picture;
 pub mod scattered;

@@ -4,7 +4,7 @@
 
 use clap::{Parser, Subcommand};
 use freikugel_bench::scattered::{self, Kind, Light};
-use freikugel_bench::{evaluation, growth, measure::Row, picture, table, whole};
+use freikugel_bench::{evaluation, growth, measure::Row, nearest, picture, table, whole};
 use serde_json::{Value as Json, json};
 use std::io::Write;
 use std::path::PathBuf;
@@ -116,6 +116,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         }
     };
     measure(evaluation::rows(&is_wanted));
+    measure(nearest::rows(&is_wanted));
     measure(picture::rows(&is_wanted, arguments.data.as_deref(), &others));
     measure(whole::rows(&is_wanted, &others));
     let counts: Vec<usize> = growth::COUNTS.into_iter().filter(|&count| is_wanted(&growth::name(count))).collect();

@@ -39,10 +39,16 @@ const FLOOR: f64 = -1.5;
 const COLORS: [&str; 5] = ["#c8825a", "#6d8fb3", "#93a86c", "#d6b65c", "#a07aa6"];
 
 /// Numbers from 0 to 1 by Marsaglia, "Xorshift RNGs" (2003).
-struct Random(u64);
+pub(crate) struct Random(u64);
+
+impl Default for Random {
+    fn default() -> Self {
+        Self(SEED)
+    }
+}
 
 impl Random {
-    fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -53,7 +59,7 @@ impl Random {
 /// The text of a scene of `count` primitives: an object each, or with `blend` one object that blends all within this
 /// distance. Unlit ones have no lights besides the ambient one, so that camera rays are all there is to trace.
 pub fn scene(count: usize, kind: Kind, blend: Option<f64>, light: Light) -> String {
-    let mut random = Random(SEED);
+    let mut random = Random::default();
     let spacing = 0.9 / (count.max(1) as f64).cbrt();
     let mut text = String::from(
         "{\n  \"version\": 1,\n  \"picture\": { \"width\": 640, \"height\": 360, \"samples\": 1 },\n  \

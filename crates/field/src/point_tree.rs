@@ -2,6 +2,7 @@
 
 use crate::scalar::Tree;
 use glam::DVec3;
+use std::array::from_fn;
 
 /// Nodes are boxes, by their middle and half their size; rows are points.
 pub(crate) const TREE: Tree = Tree { node: 6, row: 3, leaf: 8 };
@@ -10,8 +11,19 @@ pub(crate) const TREE: Tree = Tree { node: 6, row: 3, leaf: 8 };
 /// distances between them.
 const MARGIN: f64 = 1e-6;
 
-/// What fills up the last leaf: so far away that it is never near, but not so far that squares of distances were infinite.
-const NOWHERE: DVec3 = DVec3::splat(1e18);
+/// Every coordinate of what fills up the last leaf: so far away that it is never near, but not so far that squares of distances were
+/// infinite.
+const NOWHERE: f64 = 1e18;
+
+/// Squares of distances from boxes are taken for less by this share, which is more than rounding adds to them.
+pub(crate) const SHORTER: f64 = 1e-5;
+
+/// Added to a square that shall be found once more: no smaller one makes a difference.
+const LEAST: f32 = 1e-36;
+
+/// So many nodes wait at most: three for each two levels of a tree, whose constants are counted by numbers of 32 bits, and those
+/// that are being sorted.
+const WAITING: usize = 3 * 16 + 4;
 
 /// The constants of a tree of these points: at least one. Of node 0, which is none, those after the number of leaves are `own`.
 pub(crate) fn constants(mut points: Vec<DVec3>, own: &[f64]) -> Vec<f64> {
@@ -30,7 +42,7 @@ fn fill(out: &mut [f64], below: &[usize], node: usize, points: &mut [DVec3]) -> 
     let leaves = below.len() / 2;
     let [low, high] = if node >= leaves {
         let first = below.len() * TREE.node + (node - leaves) * TREE.leaf * TREE.row;
-        let full = points.iter().chain(std::iter::repeat(&NOWHERE)).take(TREE.leaf);
+        let full = points.iter().copied().chain(std::iter::repeat(DVec3::splat(NOWHERE))).take(TREE.leaf);
         full.zip(out[first..].chunks_exact_mut(TREE.row)).for_each(|(point, row)| point.write_to_slice(row));
         around(points)
     } else {
@@ -53,4 +65,121 @@ fn fill(out: &mut [f64], below: &[usize], node: usize, points: &mut [DVec3]) -> 
 fn around(points: &[DVec3]) -> [DVec3; 2] {
     let start = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     points.iter().fold(start, |[low, high], &point| [low.min(point), high.max(point)])
+}
+
+/// Searches of one tree, one after another: what was found for a point is where the search for the next one begins.
+pub(crate) struct Search<'t> {
+    constants: &'t [f32],
+    leaves: usize,
+    found: [f32; 3],
+}
+
+impl<'t> Search<'t> {
+    /// Of the tree with these constants.
+    pub(crate) fn new(constants: &'t [f32]) -> Self {
+        Self { constants, leaves: TREE.leaves(constants.len()), found: [NOWHERE as f32; 3] }
+    }
+
+    /// The row nearest to a point. Nearer nodes come first, and those that are farther than what was found are passed over (Friedman,
+    /// Bentley and Finkel, "An Algorithm for Finding Best Matches in Logarithmic Expected Time", 1977).
+    ///
+    /// It is code of the baseline on purpose: points do not take the same way through a tree, so that each lane goes its own.
+    #[inline(never)]
+    pub(crate) fn nearest(&mut self, p: [f32; 3]) -> [f32; 3] {
+        let mut least = square_between(p, self.found) * (1.0 + SHORTER as f32) + LEAST;
+        let (mut waiting, mut count) = ([Waiting::default(); WAITING], 1);
+        waiting[0] = Waiting::new(0.0, 1);
+        while count > 0 {
+            count -= 1;
+            let next = waiting[count];
+            if next.square() >= least {
+                continue;
+            }
+            let node = next.node();
+            if node >= self.leaves {
+                let rows = self.rows(node);
+                let squares = rows.map(|row| square_between(p, row));
+                let square =
+                    squares.iter().fold(f32::MAX, |least, &square| if square < least { square } else { least });
+                if square < least {
+                    let place = squares.iter().position(|&other| other == square).expect("one of them");
+                    (least, self.found) = (square, rows[place]);
+                }
+                continue;
+            }
+            let mut push = |next: Waiting| {
+                waiting[count] = next;
+                count += usize::from(next.square() < least);
+            };
+            if 4 * node + 3 < 2 * self.leaves {
+                let [a, b, c, d] = self.below(p, 4 * node);
+                // A sorting network, without branches.
+                let ([a, b], [c, d]) = (ordered(a, b), ordered(c, d));
+                let ([a, c], [b, d]) = (ordered(a, c), ordered(b, d));
+                let [b, c] = ordered(b, c);
+                [a, b, c, d].map(push);
+            } else {
+                let [a, b] = self.below(p, 2 * node);
+                ordered(a, b).map(push);
+            }
+        }
+        self.found
+    }
+
+    /// Some nodes, one after another, with squares that those of the distances from all points below them are not below.
+    #[inline(always)]
+    fn below<const N: usize>(&self, p: [f32; 3], first: usize) -> [Waiting; N] {
+        let boxes = &self.constants[first * TREE.node..][..N * TREE.node];
+        let mut squares = [0.0; N];
+        for axis in 0..3 {
+            for (square, row) in squares.iter_mut().zip(boxes.chunks_exact(TREE.node)) {
+                let outside = ((p[axis] - row[axis]).abs() - row[3 + axis]).max(0.0);
+                *square += outside * outside;
+            }
+        }
+        from_fn(|index| Waiting::new(squares[index] * (1.0 - SHORTER as f32), first + index))
+    }
+
+    /// The rows of a leaf.
+    #[inline(always)]
+    fn rows(&self, leaf: usize) -> [[f32; TREE.row]; TREE.leaf] {
+        let size = TREE.leaf * TREE.row;
+        let first = 2 * self.leaves * TREE.node + (leaf - self.leaves) * size;
+        let rows = self.constants[first..][..size].as_chunks().0;
+        rows.try_into().expect("a leaf is full")
+    }
+}
+
+/// A node to be visited, and a square below those of all distances there: one number, that of the farther node is greater. (The bits of
+/// numbers that are not negative are ordered as they are.)
+#[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Waiting(u64);
+
+impl Waiting {
+    #[inline(always)]
+    fn new(square: f32, node: usize) -> Self {
+        Self(u64::from(square.to_bits()) << 32 | node as u64)
+    }
+
+    #[inline(always)]
+    fn square(self) -> f32 {
+        f32::from_bits((self.0 >> 32) as u32)
+    }
+
+    #[inline(always)]
+    fn node(self) -> usize {
+        self.0 as u32 as usize
+    }
+}
+
+/// The greater one first.
+#[inline(always)]
+fn ordered(a: Waiting, b: Waiting) -> [Waiting; 2] {
+    [a.max(b), a.min(b)]
+}
+
+#[inline(always)]
+fn square_between(p: [f32; 3], q: [f32; 3]) -> f32 {
+    let [x, y, z] = [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+    x * x + y * y + z * z
 }

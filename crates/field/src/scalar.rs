@@ -49,9 +49,6 @@ pub trait Scalar:
     /// Whether it stands for all numbers of a range. Formulas may then take more care, which others needn't.
     const IS_ENCLOSURE: bool = false;
 
-    /// Whether it is a number and nothing else, so that of equal ones it makes no difference which is taken.
-    const IS_PLAIN: bool = false;
-
     /// The constant `c`, as a scalar of the kind of `self`.
     fn lift(self, c: f64) -> Self;
 
@@ -335,9 +332,6 @@ pub trait Scalar:
         value: impl Fn(&Constants<'_, Self>) -> Self,
         raised: impl Fn(Self) -> Self,
     ) -> Self {
-        if Self::IS_PLAIN {
-            return least_near_first(constants, tree, most, bound, value);
-        }
         let [near] = Self::fold_leaf(
             constants,
             tree,
@@ -358,61 +352,15 @@ pub trait Scalar:
         );
         least
     }
-}
 
-/// [`Scalar::least_in_tree`] for plain numbers, which of several equal rows it is from makes no difference to: the nearer one of two
-/// nodes comes first, whichever that is.
-#[inline(always)]
-fn least_near_first<S: Scalar>(
-    constants: &Constants<'_, S>,
-    tree: Tree,
-    most: S,
-    bound: impl Fn(&Constants<'_, S>) -> S,
-    value: impl Fn(&Constants<'_, S>) -> S,
-) -> S {
-    let leaves = tree.leaves(constants.count());
-    let (mut waiting, mut count) = ([0; DEEPEST], 0);
-    let (mut least, mut node) = (most, 1);
-    loop {
-        if node < leaves {
-            // One by one: a function of the standard library between would lose the instruction set.
-            let left = bound(&tree.node_of(constants, 2 * node));
-            let right = bound(&tree.node_of(constants, 2 * node + 1));
-            let is_right = S::any(right.lt(left));
-            let (near, far) = if is_right { (right, left) } else { (left, right) };
-            if S::any(far.lt(least)) {
-                waiting[count] = 2 * node + usize::from(!is_right);
-                count += 1;
-            }
-            if S::any(near.lt(least)) {
-                node = 2 * node + usize::from(is_right);
-                continue;
-            }
-        } else {
-            [least] = tree.fold_rows(
-                constants,
-                node,
-                [least],
-                #[inline(always)]
-                |[least], row| [value(row).min(least)],
-            );
-        }
-        // What waits has become too far away, or it is next.
-        loop {
-            if count == 0 {
-                return least;
-            }
-            count -= 1;
-            node = waiting[count];
-            if S::any(bound(&tree.node_of(constants, node)).lt(least)) {
-                break;
-            }
-        }
+    /// The coordinates of that point in a tree of points, as [`crate::point_tree`] lays it out, which is nearest to `p`; of several
+    /// any one. `None` of scalars that can't be searched for by themselves, such as enclosures.
+    #[inline(always)]
+    fn nearest_row(p: [Self; 3], constants: &Constants<'_, Self>) -> Option<[Self; 3]> {
+        let _ = (p, constants);
+        None
     }
 }
-
-/// The most levels of a tree: its constants are counted by numbers of 32 bits.
-const DEEPEST: usize = 32;
 
 /// How a complete binary tree lies among constants. Its `n` leaves are the nodes `n` to `2 n - 1`; below node `i` before them are
 /// `2 i` and `2 i + 1`. The constants of the nodes come first, in order, in the place of node 0 (which is none) what else the
@@ -487,6 +435,14 @@ pub struct Constants<'t, S: Scalar> {
     table: &'t S::Table,
     first: usize,
     len: usize,
+}
+
+impl<'t, S: Scalar<Table = [f32]>> Constants<'t, S> {
+    /// As plain numbers.
+    #[inline(always)]
+    pub(crate) fn slice(&self) -> &'t [f32] {
+        &self.table[self.first..][..self.len]
+    }
 }
 
 impl<'t, S: Scalar> Constants<'t, S> {

@@ -245,6 +245,13 @@ fn info_schema_and_help_say_what_there_is() {
     ] {
         assert!(text.contains(part), "no {part:?} in {text}");
     }
+    let points = (0..1000).map(|index| format!("[{index}, 0, 0.25]")).collect::<Vec<String>>().join(", ");
+    folder.write(
+        "many.json",
+        &format!(r#"{{ "objects": [ {{ "shape": {{ "point_set": {{ "radius": 1, "points": [{points}] }} }} }} ] }}"#),
+    );
+    let text = stdout(&folder.run(&["info", "many.json"]));
+    assert!(text.contains("points=0,0,0.25,1,0,0.25") && text.contains(",... (3000 numbers)  ["), "{text}");
     let schema: serde_json::Value = serde_json::from_str(&stdout(&folder.run(&["schema"]))).expect("JSON");
     assert!(schema.is_object());
     let shapes = stdout(&folder.run(&["help", "shapes"]));

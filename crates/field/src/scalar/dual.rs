@@ -5,7 +5,7 @@
 
 #![allow(clippy::suspicious_arithmetic_impl, reason = "the product and quotient rules use other operators")]
 
-use super::Scalar;
+use super::{Constants, Scalar};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A value and its partial derivatives by `N` inputs: x, y and z, unless otherwise said.
@@ -204,6 +204,14 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
     #[inline(always)]
     fn constant(self, table: &T::Table, index: usize) -> Self {
         Self::independent(self.value.constant(table, index))
+    }
+
+    #[inline(always)]
+    fn nearest_row(p: [Self; 3], constants: &Constants<'_, Self>) -> Option<[Self; 3]> {
+        let (table, first) = constants.origin();
+        let constants = Constants::new(p[0].value, table, 0).part(first, constants.count());
+        let [x, y, z] = T::nearest_row([p[0].value, p[1].value, p[2].value], &constants)?;
+        Some([Self::independent(x), Self::independent(y), Self::independent(z)])
     }
 
     #[inline(always)]

@@ -7,7 +7,8 @@
 //! `libm` lane by lane. [`crate::elementary`] states their errors. Integer powers are multiplied out: their error grows by
 //! up to a unit in the last place with each factor.
 
-use super::Scalar;
+use super::{Constants, Scalar};
+use crate::point_tree::Search;
 use fearless_simd::{ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdMask};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -128,8 +129,6 @@ impl<I: Simd> Scalar for Lanes<I> {
     type Mask = LaneMask<I>;
     type Table = [f32];
 
-    const IS_PLAIN: bool = true;
-
     #[inline(always)]
     fn lift(self, c: f64) -> Self {
         Self::splat(self.0.token(), c as f32)
@@ -148,6 +147,22 @@ impl<I: Simd> Scalar for Lanes<I> {
     #[inline(always)]
     fn select(mask: LaneMask<I>, yes: Self, no: Self) -> Self {
         Self(mask.0.select(yes.0, no.0))
+    }
+
+    #[inline(always)]
+    fn nearest_row(p: [Self; 3], constants: &Constants<'_, Self>) -> Option<[Self; 3]> {
+        let mut search = Search::new(constants.slice());
+        let [mut x, mut y, mut z] = [[0.0; WIDEST]; 3];
+        p[0].store(&mut x[..Self::COUNT]);
+        p[1].store(&mut y[..Self::COUNT]);
+        p[2].store(&mut z[..Self::COUNT]);
+        let mut lane = 0;
+        while lane < Self::COUNT {
+            [x[lane], y[lane], z[lane]] = search.nearest([x[lane], y[lane], z[lane]]);
+            lane += 1;
+        }
+        let (token, count) = (p[0].0.token(), Self::COUNT);
+        Some([Self::load(token, &x[..count]), Self::load(token, &y[..count]), Self::load(token, &z[..count])])
     }
 
     #[inline(always)]

@@ -11,8 +11,6 @@ impl Scalar for f64 {
     type Mask = bool;
     type Table = [f64];
 
-    const IS_PLAIN: bool = true;
-
     #[inline(always)]
     fn lift(self, c: f64) -> Self {
         c

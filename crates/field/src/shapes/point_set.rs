@@ -1,6 +1,6 @@
 //! Balls around given points, found by a tree of boxes: clouds of up to millions of points.
 
-use crate::point_tree::{TREE, constants};
+use crate::point_tree::{SHORTER, TREE, constants};
 use crate::remember::remembered;
 use crate::shape_prelude::*;
 
@@ -23,9 +23,6 @@ pub(crate) const MOST_POINTS: usize = 2_000_000;
 
 /// The constant that is the radius.
 const RADIUS: usize = 1;
-
-/// Squares of distances from boxes are taken for less by this share, which is more than rounding adds to them.
-const MARGIN: f64 = 1e-5;
 
 /// Squares of distances that are taken for 0, where a point has no direction to the nearest one.
 const LEAST: f64 = 1e-36;
@@ -59,14 +56,18 @@ pub(crate) fn square_to_box<S: Scalar>(p: Vec3<S>, node: &Constants<'_, S>) -> S
     let zero = p.x.lift(0.0);
     let outside = (p - vec3(mx, my, mz)).abs() - vec3(hx, hy, hz);
     let square = outside.x.max(zero).square() + outside.y.max(zero).square() + outside.z.max(zero).square();
-    square * (1.0 - MARGIN)
+    square * (1.0 - SHORTER)
 }
 
 /// The square of the distance from the point in a row.
 #[inline(always)]
 pub(crate) fn square_to_point<S: Scalar>(p: Vec3<S>, row: &Constants<'_, S>) -> S {
     let [x, y, z] = row.get();
-    let q = p - vec3(x, y, z);
+    square(p - vec3(x, y, z))
+}
+
+#[inline(always)]
+fn square<S: Scalar>(q: Vec3<S>) -> S {
     q.x.square() + q.y.square() + q.z.square()
 }
 
@@ -80,6 +81,9 @@ pub(crate) fn length<S: Scalar>(square: S) -> S {
 #[inline(always)]
 pub(crate) fn nearest<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
     let far = p.x.lift(f64::from(f32::MAX));
+    if let Some([x, y, z]) = S::nearest_row([p.x, p.y, p.z], c) {
+        return length(square(p - vec3(x, y, z)).min(far));
+    }
     let square = S::least_in_tree(
         c,
         TREE,
@@ -89,7 +93,7 @@ pub(crate) fn nearest<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         #[inline(always)]
         |row| square_to_point(p, row),
         #[inline(always)]
-        |square| square * (1.0 + MARGIN) + far.lift(LEAST),
+        |square| square * (1.0 + SHORTER) + far.lift(LEAST),
     );
     length(square)
 }

@@ -24,6 +24,9 @@ pub(super) struct Arguments {
 /// How many characters of a formula are shown: those of models can fill many pages.
 const LONGEST_FORMULA: usize = 200;
 
+/// How many numbers of a list are shown: there may be millions.
+const LONGEST_LIST: usize = 24;
+
 /// Prints the scene's objects with their trees, and the sums; or the graphics processors.
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.gpu {
@@ -130,7 +133,11 @@ fn written(kind: ParamKind, numbers: &[f64]) -> String {
         (ParamKind::Knots, [_, knots @ ..]) => knots,
         _ => numbers,
     };
-    rest.iter().map(one).collect::<Vec<String>>().join(",")
+    let mut text = rest.iter().take(LONGEST_LIST).map(one).collect::<Vec<String>>().join(",");
+    if rest.len() > LONGEST_LIST {
+        let _ = write!(text, ",... ({} numbers)", rest.len());
+    }
+    text
 }
 
 /// A count with its noun.
