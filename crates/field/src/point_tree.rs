@@ -117,10 +117,14 @@ impl<'t> Search<'t> {
                 let ([a, b], [c, d]) = (ordered(a, b), ordered(c, d));
                 let ([a, c], [b, d]) = (ordered(a, c), ordered(b, d));
                 let [b, c] = ordered(b, c);
-                [a, b, c, d].map(push);
+                for next in [a, b, c, d] {
+                    push(next);
+                }
             } else {
                 let [a, b] = self.below(p, 2 * node);
-                ordered(a, b).map(push);
+                for next in ordered(a, b) {
+                    push(next);
+                }
             }
         }
         self.found

@@ -348,6 +348,7 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
     }
 
     #[inline(always)]
+    #[expect(clippy::redundant_closure_for_method_calls, reason = "what a path names would not be inlined")]
     fn agreed(self, other: Self) -> Self {
         self.zip(
             other,
