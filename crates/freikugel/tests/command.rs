@@ -248,7 +248,7 @@ fn info_schema_and_help_say_what_there_is() {
     let points = (0..1000).map(|index| format!("[{index}, 0, 0.25]")).collect::<Vec<String>>().join(", ");
     folder.write(
         "many.json",
-        &format!(r#"{{ "objects": [ {{ "shape": {{ "point_set": {{ "radius": 1, "points": [{points}] }} }} }} ] }}"#),
+        format!(r#"{{ "objects": [ {{ "shape": {{ "point_set": {{ "radius": 1, "points": [{points}] }} }} }} ] }}"#),
     );
     let text = stdout(&folder.run(&["info", "many.json"]));
     assert!(text.contains("points=0,0,0.25,1,0,0.25") && text.contains(",... (3000 numbers)  ["), "{text}");
