@@ -353,7 +353,7 @@ pub trait Scalar:
         least
     }
 
-    /// The coordinates of that point in a tree of points, as [`crate::point_tree`] lays it out, which is nearest to `p`; of several
+    /// The coordinates of that point in a tree of points, as `point_set` has it, which is nearest to `p`; of several
     /// any one. `None` of scalars that can't be searched for by themselves, such as enclosures.
     #[inline(always)]
     fn nearest_row(p: [Self; 3], constants: &Constants<'_, Self>) -> Option<[Self; 3]> {
