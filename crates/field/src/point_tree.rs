@@ -99,8 +99,8 @@ impl<'t> Search<'t> {
             if node >= self.leaves {
                 let rows = self.rows(node);
                 let squares = rows.map(|row| square_between(p, row));
-                let square =
-                    squares.iter().fold(f32::MAX, |least, &square| if square < least { square } else { least });
+                // From `least` on: at places without numbers no square is less than any.
+                let square = squares.iter().fold(least, |least, &square| if square < least { square } else { least });
                 if square < least {
                     let place = squares.iter().position(|&other| other == square).expect("one of them");
                     (least, self.found) = (square, rows[place]);

@@ -70,6 +70,25 @@ fn the_nearest_point_is_found() {
     }
 }
 
+/// Rays that are over may lie at infinity.
+#[test]
+fn places_without_numbers_are_far_away() {
+    for count in [1, 6, 100] {
+        let mut random = Random::new(3);
+        let cloud: Vec<DVec3> = (0..count).map(|_| random.point(1.0)).collect();
+        let program = program(&set(&cloud));
+        for level in simd::available() {
+            for far in [f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::NAN] {
+                let (x, y) = ([0.1, far, far, 0.2, far], [0.1, 0.2, far, 0.3, -far]);
+                let mut values = [0.0; 5];
+                Evaluator::with_level(&program, level).values(Points { x: &x, y: &y, z: &[0.0; 5] }, &mut values);
+                assert!([1, 2, 4].iter().all(|&index| values[index] > 1e18), "{far}: {values:?}");
+                assert!([0, 3].iter().all(|&index| values[index] < 3.0), "{far}: {values:?}");
+            }
+        }
+    }
+}
+
 /// A place has the same value and gradient to the bit on all instruction sets and in whatever company; the gradient leads away from
 /// a nearest point.
 #[test]
