@@ -57,13 +57,18 @@ fn place(point: &[f32; 3]) -> u32 {
     (0..STEPS.log2() as u32).map(|bit| ((x >> bit & 1) | (y >> bit & 1) << 1 | (z >> bit & 1) << 2) << (3 * bit)).sum()
 }
 
+/// All x, all y, and all z.
+fn columns(points: &[[f32; 3]]) -> [Vec<f32>; 3] {
+    [0, 1, 2].map(|axis| points.iter().map(|point| point[axis]).collect())
+}
+
 fn contenders(is_sorted: bool) -> Vec<Contender<'static>> {
     let Data { program, tree, queries } = data();
     let mut queries = queries.clone();
     if is_sorted {
         queries.sort_by_key(place);
     }
-    let [x, y, z]: [Vec<f32>; 3] = std::array::from_fn(|axis| queries.iter().map(|query| query[axis]).collect());
+    let [x, y, z] = columns(&queries);
     let ours = simd::available().into_iter().rev().map(|level| {
         let mut evaluator = Evaluator::with_level(program, level);
         let (x, y, z, mut values) = (x.clone(), y.clone(), z.clone(), vec![0.0; QUERIES]);
@@ -89,7 +94,7 @@ mod tests {
     fn both_find_the_same_distances() {
         let Data { program, tree, queries } = data();
         let mut values = vec![0.0; QUERIES];
-        let [x, y, z]: [Vec<f32>; 3] = std::array::from_fn(|axis| queries.iter().map(|query| query[axis]).collect());
+        let [x, y, z] = columns(queries);
         Evaluator::new(program).values(Points { x: &x, y: &y, z: &z }, &mut values);
         for (query, value) in queries.iter().zip(values) {
             let theirs = tree.query(query).nearest_one::<SquaredEuclidean<f32>>().execute().distance.sqrt();
