@@ -26,6 +26,7 @@
 pub mod analysis;
 mod arcs;
 mod arcs3;
+pub mod balls;
 mod bank;
 mod bvh;
 pub mod cells;

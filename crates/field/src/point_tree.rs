@@ -67,6 +67,62 @@ fn around(points: &[DVec3]) -> [DVec3; 2] {
     points.iter().fold(start, |[low, high], &point| [low.min(point), high.max(point)])
 }
 
+/// What is looked for in a tree of points: where the least of some numbers is found, none of which is below 0.
+pub(crate) trait Quest {
+    /// What no number in each of some boxes is below: at least 0.
+    fn keys<const N: usize>(&self, boxes: &[f32]) -> [f32; N];
+
+    /// Looks at a leaf, by its place among them, and returns the least number that is known now, given that before.
+    fn visit(&mut self, leaf: usize, least: f32) -> f32;
+}
+
+/// Goes through a tree, given by its boxes, as long as there may be numbers below `least`. Boxes with smaller keys come first, and
+/// those are passed over of which the key is above what was found (Friedman, Bentley and Finkel, "An Algorithm for Finding Best
+/// Matches in Logarithmic Expected Time", 1977).
+#[inline(always)]
+pub(crate) fn walk(boxes: &[f32], leaves: usize, mut least: f32, quest: &mut impl Quest) {
+    let (mut waiting, mut count) = ([Waiting::default(); WAITING], 1);
+    waiting[0] = Waiting::new(0.0, 1);
+    while count > 0 {
+        count -= 1;
+        let next = waiting[count];
+        if next.key() >= least {
+            continue;
+        }
+        let node = next.node();
+        if node >= leaves {
+            least = quest.visit(node - leaves, least);
+            continue;
+        }
+        let mut push = |next: Waiting| {
+            waiting[count] = next;
+            count += usize::from(next.key() < least);
+        };
+        if 4 * node + 3 < 2 * leaves {
+            let [a, b, c, d] = below(boxes, 4 * node, quest);
+            // A sorting network, without branches.
+            let ([a, b], [c, d]) = (ordered(a, b), ordered(c, d));
+            let ([a, c], [b, d]) = (ordered(a, c), ordered(b, d));
+            let [b, c] = ordered(b, c);
+            for next in [a, b, c, d] {
+                push(next);
+            }
+        } else {
+            let [a, b] = below(boxes, 2 * node, quest);
+            for next in ordered(a, b) {
+                push(next);
+            }
+        }
+    }
+}
+
+/// Some nodes, one after another, with their keys.
+#[inline(always)]
+fn below<const N: usize>(boxes: &[f32], first: usize, quest: &impl Quest) -> [Waiting; N] {
+    let keys: [f32; N] = quest.keys(&boxes[first * TREE.node..][..N * TREE.node]);
+    from_fn(|index| Waiting::new(keys[index], first + index))
+}
+
 /// Searches of one tree, one after another: what was found for a point is where the search for the next one begins.
 pub(crate) struct Search<'t> {
     constants: &'t [f32],
@@ -80,93 +136,75 @@ impl<'t> Search<'t> {
         Self { constants, leaves: TREE.leaves(constants.len()), found: [NOWHERE as f32; 3] }
     }
 
-    /// The row nearest to a point. Nearer nodes come first, and those that are farther than what was found are passed over (Friedman,
-    /// Bentley and Finkel, "An Algorithm for Finding Best Matches in Logarithmic Expected Time", 1977).
+    /// The row nearest to a point.
     ///
     /// It is code of the baseline on purpose: points do not take the same way through a tree, so that each lane goes its own.
     #[inline(never)]
     pub(crate) fn nearest(&mut self, p: [f32; 3]) -> [f32; 3] {
-        let mut least = square_between(p, self.found) * (1.0 + SHORTER as f32) + LEAST;
-        let (mut waiting, mut count) = ([Waiting::default(); WAITING], 1);
-        waiting[0] = Waiting::new(0.0, 1);
-        while count > 0 {
-            count -= 1;
-            let next = waiting[count];
-            if next.square() >= least {
-                continue;
-            }
-            let node = next.node();
-            if node >= self.leaves {
-                let rows = self.rows(node);
-                let squares = rows.map(|row| square_between(p, row));
-                // From `least` on: at places without numbers no square is less than any.
-                let square = squares.iter().fold(least, |least, &square| if square < least { square } else { least });
-                if square < least {
-                    let place = squares.iter().position(|&other| other == square).expect("one of them");
-                    (least, self.found) = (square, rows[place]);
-                }
-                continue;
-            }
-            let mut push = |next: Waiting| {
-                waiting[count] = next;
-                count += usize::from(next.square() < least);
-            };
-            if 4 * node + 3 < 2 * self.leaves {
-                let [a, b, c, d] = self.below(p, 4 * node);
-                // A sorting network, without branches.
-                let ([a, b], [c, d]) = (ordered(a, b), ordered(c, d));
-                let ([a, c], [b, d]) = (ordered(a, c), ordered(b, d));
-                let [b, c] = ordered(b, c);
-                for next in [a, b, c, d] {
-                    push(next);
-                }
-            } else {
-                let [a, b] = self.below(p, 2 * node);
-                for next in ordered(a, b) {
-                    push(next);
-                }
-            }
-        }
+        let least = square_between(p, self.found) * (1.0 + SHORTER as f32) + LEAST;
+        let (boxes, rows) = self.constants.split_at(2 * self.leaves * TREE.node);
+        let mut quest = Nearest { p, rows, found: self.found };
+        walk(boxes, self.leaves, least, &mut quest);
+        self.found = quest.found;
         self.found
-    }
-
-    /// Some nodes, one after another, with squares that those of the distances from all points below them are not below.
-    #[inline(always)]
-    fn below<const N: usize>(&self, p: [f32; 3], first: usize) -> [Waiting; N] {
-        let boxes = &self.constants[first * TREE.node..][..N * TREE.node];
-        let mut squares = [0.0; N];
-        for axis in 0..3 {
-            for (square, row) in squares.iter_mut().zip(boxes.chunks_exact(TREE.node)) {
-                let outside = ((p[axis] - row[axis]).abs() - row[3 + axis]).max(0.0);
-                *square += outside * outside;
-            }
-        }
-        from_fn(|index| Waiting::new(squares[index] * (1.0 - SHORTER as f32), first + index))
-    }
-
-    /// The rows of a leaf.
-    #[inline(always)]
-    fn rows(&self, leaf: usize) -> [[f32; TREE.row]; TREE.leaf] {
-        let size = TREE.leaf * TREE.row;
-        let first = 2 * self.leaves * TREE.node + (leaf - self.leaves) * size;
-        let rows = self.constants[first..][..size].as_chunks().0;
-        rows.try_into().expect("a leaf is full")
     }
 }
 
-/// A node to be visited, and a square below those of all distances there: one number, that of the farther node is greater. (The bits of
-/// numbers that are not negative are ordered as they are.)
+/// The search for the row nearest to a point; its numbers are squares of distances.
+struct Nearest<'t> {
+    p: [f32; 3],
+    rows: &'t [f32],
+    found: [f32; 3],
+}
+
+impl Quest for Nearest<'_> {
+    #[inline(always)]
+    fn keys<const N: usize>(&self, boxes: &[f32]) -> [f32; N] {
+        let mut squares = [0.0; N];
+        for axis in 0..3 {
+            for (square, row) in squares.iter_mut().zip(boxes.chunks_exact(TREE.node)) {
+                let outside = ((self.p[axis] - row[axis]).abs() - row[3 + axis]).max(0.0);
+                *square += outside * outside;
+            }
+        }
+        squares.map(|square| square * (1.0 - SHORTER as f32))
+    }
+
+    #[inline(always)]
+    fn visit(&mut self, leaf: usize, least: f32) -> f32 {
+        let rows: [[f32; TREE.row]; TREE.leaf] = rows(self.rows, leaf);
+        let squares = rows.map(|row| square_between(self.p, row));
+        // From `least` on: at places without numbers no square is less than any.
+        let square = squares.iter().fold(least, |least, &square| if square < least { square } else { least });
+        if square < least {
+            let place = squares.iter().position(|&other| other == square).expect("one of them");
+            self.found = rows[place];
+        }
+        square
+    }
+}
+
+/// The rows of a leaf, of those of all leaves.
+#[inline(always)]
+pub(crate) fn rows<T: Copy>(all: &[T], leaf: usize) -> [[T; TREE.row]; TREE.leaf] {
+    let size = TREE.leaf * TREE.row;
+    let rows = all[leaf * size..][..size].as_chunks().0;
+    rows.try_into().expect("a leaf is full")
+}
+
+/// A node to be visited, and its key: one number, which is greater if the key is. (The bits of numbers that are not negative are ordered
+/// as they are.)
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 struct Waiting(u64);
 
 impl Waiting {
     #[inline(always)]
-    fn new(square: f32, node: usize) -> Self {
-        Self(u64::from(square.to_bits()) << 32 | node as u64)
+    fn new(key: f32, node: usize) -> Self {
+        Self(u64::from(key.to_bits()) << 32 | node as u64)
     }
 
     #[inline(always)]
-    fn square(self) -> f32 {
+    fn key(self) -> f32 {
         f32::from_bits((self.0 >> 32) as u32)
     }
 

@@ -1,7 +1,7 @@
 //! Exact ray intersections, for shapes that have one and profit from it: planes, which a marched ray only crawls along.
 
 use crate::analysis::axis_map;
-use crate::field::Field;
+use crate::field::{Field, Node};
 use crate::shape::{ExactForm, Kind};
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -12,37 +12,9 @@ pub struct ExactRay(ExactForm);
 impl ExactRay {
     /// The intersection of `field`, if it has one.
     pub fn of(field: &Field) -> Option<Self> {
-        let mut map = DAffine3::IDENTITY;
-        let mut field = field;
-        loop {
-            let node = field.node();
-            match &node.shape.kind {
-                Kind::Primitive(table) => {
-                    if let Some(axis) = node.axis() {
-                        map *= DAffine3::from_mat3(axis_map(axis));
-                    }
-                    return (table.exact_form)(&node.numbers()).map(|form| Self(form.mapped(&map)));
-                }
-                Kind::Place(table) => map *= (table.map)(&node.numbers()),
-                Kind::Paint => {}
-                Kind::Combine(_) if node.children.len() == 1 => {}
-                Kind::Combine(_)
-                | Kind::Map(_)
-                | Kind::Modify(_)
-                | Kind::Product(_)
-                | Kind::Loft
-                | Kind::PerimeterSweep
-                | Kind::Copies(_)
-                | Kind::Endless { .. }
-                | Kind::Formula
-                | Kind::Warp
-                | Kind::Displace
-                | Kind::Twist => {
-                    return None;
-                }
-            }
-            field = node.children.first()?;
-        }
+        let (primitive, map) = placed_primitive(field)?;
+        let Kind::Primitive(table) = &primitive.shape.kind else { return None };
+        (table.exact_form)(&primitive.numbers()).map(|form| Self(form.mapped(&map)))
     }
 
     /// The surface.
@@ -67,6 +39,39 @@ impl ExactRay {
                 (t.is_finite() && t >= 0.0).then_some(t)
             }
         }
+    }
+}
+
+/// The primitive that a field is, but for paint and its place in space, and the map that leads there.
+pub(crate) fn placed_primitive(field: &Field) -> Option<(&Node, DAffine3)> {
+    let mut map = DAffine3::IDENTITY;
+    let mut field = field;
+    loop {
+        let node = field.node();
+        match &node.shape.kind {
+            Kind::Primitive(_) => {
+                if let Some(axis) = node.axis() {
+                    map *= DAffine3::from_mat3(axis_map(axis));
+                }
+                return Some((node, map));
+            }
+            Kind::Place(table) => map *= (table.map)(&node.numbers()),
+            Kind::Paint => {}
+            Kind::Combine(_) if node.children.len() == 1 => {}
+            Kind::Combine(_)
+            | Kind::Map(_)
+            | Kind::Modify(_)
+            | Kind::Product(_)
+            | Kind::Loft
+            | Kind::PerimeterSweep
+            | Kind::Copies(_)
+            | Kind::Endless { .. }
+            | Kind::Formula
+            | Kind::Warp
+            | Kind::Displace
+            | Kind::Twist => return None,
+        }
+        field = node.children.first()?;
     }
 }
 

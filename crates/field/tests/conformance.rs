@@ -4,6 +4,7 @@ mod common;
 
 use common::{Random, every_shape, tree};
 use freikugel_field::expr::Graph;
+use freikugel_field::shapes::*;
 use freikugel_field::{Evaluator, Field, Interval, Points, Program, Shares, Structure, simd};
 use glam::DVec3;
 
@@ -101,6 +102,34 @@ fn gradients_agree_with_differences() {
     }
 }
 
+/// Where a value is 0, which of the two sides of a surface counts must not be neither.
+#[test]
+fn bodies_with_faces_have_slopes_on_them() {
+    let square = || rectangle(2.0, 2.0);
+    let bodies: [Field; 6] = [
+        cuboid([2.0, 2.0, 2.0]).into(),
+        cuboid([2.0, 2.0, 2.0]).round(0.25).into(),
+        box_frame([2.0, 2.0, 2.0], 0.5).into(),
+        cylinder(1.0, 2.0).into(),
+        square().extrude(2.0),
+        square().sweep([[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]]),
+    ];
+    for body in bodies {
+        let program = program(&body);
+        let (x, y, z) = ([1.0, -1.0, 0.0, 0.0, 0.75], [0.0, 0.0, 1.0, 0.0, 0.0], [0.875, 0.75, -0.875, 1.0, -1.0]);
+        let mut value = [1.0; 5];
+        let mut gradient = [[0.0; 5]; 3];
+        let [dx, dy, dz] = &mut gradient;
+        Evaluator::new(&program).gradients(Points { x: &x, y: &y, z: &z }, &mut value, [dx, dy, dz]);
+        for place in 0..5 {
+            let slope = gradient.iter().map(|along| along[place] * along[place]).sum::<f32>();
+            // Not all of these places lie on all of the bodies.
+            assert!(value[place] != 0.0 || (slope - 1.0).abs() < 1e-6, "{body:?} at place {place}: {slope}");
+        }
+        assert!(value.iter().filter(|&&value| value == 0.0).count() > 2, "{body:?}: {value:?}");
+    }
+}
+
 #[test]
 fn hessians_agree_with_differences_of_gradients() {
     const STEP: f64 = 1e-5;
@@ -133,7 +162,7 @@ fn hessians_in_batches_agree_with_f64_and_bit_for_bit_with_each_other() {
     /// Beside a crease, single precision may stand on its other side.
     const MOST_OFF: usize = 3;
     let formulas = ["x^3*y - exp(z/2)*x", "sin(2x)*cos(y) + atan2(y, x + 4)", "hypot(x - 3, y, z) - 1"];
-    let formulas = formulas.iter().map(|text| (*text, 0, freikugel_field::shapes::formula(text).into()));
+    let formulas = formulas.iter().map(|text| (*text, 0, formula(text).into()));
     for (name, seed, field) in every_shape(2).chain(formulas) {
         let program = program(&field);
         let points = points(&mut Random::new(seed + 250), 300);
@@ -271,7 +300,7 @@ fn an_origin_far_away_changes_nothing_but_precision() {
     let at = DVec3::new(5e4, -3e4, 2e4);
     for seed in 0..50 {
         let field = tree(3, &mut Random::new(seed));
-        let moved = Field::new(&freikugel_field::shapes::TRANSLATE, at.to_array().map(Into::into), [field.clone()]);
+        let moved = Field::new(&TRANSLATE, at.to_array().map(Into::into), [field.clone()]);
         let (here, there) = (program(&field), Structure::compile(&[moved]).expect("sound").program(at));
         let points = points(&mut Random::new(seed + 600), 64);
         let [x, y, z] = columns(&points);

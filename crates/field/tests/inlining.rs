@@ -10,6 +10,7 @@ mod common;
 
 use common::{Random, call};
 use fearless_simd::{Avx2, SimdBase, f32x8};
+use freikugel_field::elementary::FUNCTIONS;
 use freikugel_field::kernel::BATCH;
 use freikugel_field::simd::{self, Level};
 use freikugel_field::{Evaluator, Points, Structure, shapes};
@@ -78,7 +79,7 @@ fn kernels_are_inlined_whole() {
         black_box(outside(level, black_box(2.0)));
     }
     // All kernels are part of this program, as they can be reached from here.
-    black_box(shapes::ALL);
+    black_box((shapes::ALL, FUNCTIONS));
     let (known, others): (Vec<_>, Vec<_>) =
         astray().into_iter().partition(|(name, _)| name.ends_with("inlining::outside"));
     assert!(!known.is_empty(), "the function that stands outside on purpose is not found");

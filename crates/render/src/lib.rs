@@ -27,7 +27,7 @@
 //! # How a picture comes about
 //!
 //! Threads take tiles in turn. A tile's rays travel in waves of some thousands, each stage working on all of them before
-//! the next begins: cast rays and intersect planes exactly; march through everything else, batch by batch; normals by
+//! the next begins: cast rays and intersect planes and equal balls exactly; march through everything else, batch by batch; normals by
 //! dual numbers at the hits; shares of the materials there; ambient occlusion; for each light, shadow rays for the hits
 //! that face it. All policy is decided per picture, light or wave, never per step.
 //!
@@ -42,6 +42,7 @@
 mod bundle;
 mod compare;
 mod encode;
+mod exact;
 mod filter;
 mod fixed;
 mod image;

@@ -8,6 +8,7 @@ use crate::prepare::{OCCLUSION_SAMPLES, OcclusionSamples};
 use crate::trace::Tracer;
 use crate::vector::{Triple, add_scaled, length};
 use freikugel_field::{Cell, Occupancy};
+use glam::DVec3;
 
 /// Working memory.
 #[derive(Default)]
@@ -19,6 +20,8 @@ pub(crate) struct Occlusion<'f> {
     clearances: Vec<f32>,
     /// The samples whose clearance has to be computed, and the cells around them.
     places: Vec<(&'f Cell, u32)>,
+    /// The samples that may be near to an exact object.
+    near: Vec<u32>,
 }
 
 impl<'f> Occlusion<'f> {
@@ -36,7 +39,7 @@ impl<'f> Occlusion<'f> {
         self.clearances.resize(self.points.len(), f32::INFINITY);
         self.find_places(tracer, &heights);
         self.clear_marched(tracer);
-        self.clear_exact(tracer);
+        self.clear_exact(tracer, &heights);
         let samples = self.clearances.chunks_exact(OCCLUSION_SAMPLES);
         for (open, clearances) in self.openness.iter_mut().zip(samples) {
             let mut occluded = 0.0;
@@ -96,15 +99,21 @@ impl<'f> Occlusion<'f> {
     }
 
     /// The clearances of exact objects, where these are less.
-    fn clear_exact(&mut self, tracer: &mut Tracer<'f>) {
-        if tracer.exact.is_empty() {
-            return;
-        }
-        tracer.cloud.clear();
-        self.points.iter().for_each(|&point| tracer.cloud.push(point));
-        for evaluator in &mut tracer.exact {
+    fn clear_exact(&mut self, tracer: &mut Tracer<'f>, heights: &[f32; OCCLUSION_SAMPLES]) {
+        let frame = tracer.frame;
+        for (exact, evaluator) in frame.renderer.exact.iter().zip(&mut tracer.exact) {
+            tracer.cloud.clear();
+            self.near.clear();
+            for (index, &point) in self.points.iter().enumerate() {
+                let place = frame.origin + DVec3::from(point.map(f64::from));
+                if exact.is_near(place, heights[index % OCCLUSION_SAMPLES].into()) {
+                    self.near.push(index as u32);
+                    tracer.cloud.push(point);
+                }
+            }
             tracer.stats.evaluations += tracer.cloud.values(evaluator, evaluator.program().whole());
-            for (clearance, &value) in self.clearances.iter_mut().zip(&tracer.cloud.value) {
+            for (&index, &value) in self.near.iter().zip(&tracer.cloud.value) {
+                let clearance = &mut self.clearances[index as usize];
                 *clearance = clearance.min(value);
             }
         }

@@ -4,6 +4,7 @@
 //! fields, and which objects are marched and which are intersected exactly. A [`Frame`] adds what belongs to one
 //! picture: the programs relative to its origin, the view, the lights as seen from there, and the tolerances.
 
+use crate::exact::{Exact, Form};
 use crate::keep::{Keep, Site};
 use crate::light::Lamp;
 use crate::march::Pace;
@@ -11,7 +12,6 @@ use crate::options::Options;
 use crate::vector::Triple;
 use crate::view::{CameraError, View, framed};
 use crate::wave::Way;
-use freikugel_field::ray::ExactRay;
 use freikugel_field::simd::{self, Level};
 use freikugel_field::{
     Aabb, Cells, Contract, Diagnostic, Extent, Field, Interval, Limits, MaterialId, Program, Severity, Structure,
@@ -30,6 +30,9 @@ const FOOTPRINT_SHARE: f64 = 1.0 / 16.0;
 
 /// The part of the scene's size that a fixed step goes if the scene does not say: no more than 443 steps lead through.
 const FIXED_STEP: f64 = 1.0 / 256.0;
+
+/// So many steps before a sheet, fixed steps begin to look for it.
+const VALLEY_STEPS: f64 = 2.0;
 
 /// Rounding errors of a field value in single precision, relative to the coordinates: a handful of operations.
 const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
@@ -102,13 +105,6 @@ pub(crate) struct Paint<'s> {
     pub(crate) is_sheet: bool,
 }
 
-/// An object that rays are intersected with exactly.
-pub(crate) struct Exact<'s> {
-    pub(crate) ray: ExactRay,
-    pub(crate) paint: Paint<'s>,
-    structure: Structure,
-}
-
 impl<'s> Renderer<'s> {
     /// Compiles the fields of a scene.
     ///
@@ -138,8 +134,8 @@ impl<'s> Renderer<'s> {
         let method = scene.tracer.method;
         for (index, (object, analysis)) in scene.objects.iter().zip(&mut analyses).enumerate() {
             contracts.push(analysis.contract);
-            let exact_ray = ExactRay::of(&object.shape);
-            if analysis.extent == Extent::Unbounded && exact_ray.is_none() {
+            let form = Form::of(&object.shape);
+            if analysis.extent == Extent::Unbounded && form.is_none() {
                 // What is not there within the reach of the search may still be beyond it.
                 analysis.extent = match find_extent(&object.shape, &Limits::default()) {
                     Extent::Finite(aabb) => Extent::Finite(aabb),
@@ -150,8 +146,8 @@ impl<'s> Renderer<'s> {
                 extent = hull(extent, analysis.extent);
             }
             // All other methods are there to be compared: each has to find all surfaces.
-            let exact_ray = exact_ray.filter(|_| method == Method::Auto);
-            if let Some(ray) = exact_ray {
+            let form = form.filter(|_| method == Method::Auto);
+            if let Some(form) = form {
                 let structure = Structure::compile(&fields[index..=index]).map_err(PrepareError::Fields)?;
                 let own = structure.regions().first().and_then(|region| region.material);
                 let paint = Paint {
@@ -159,7 +155,7 @@ impl<'s> Renderer<'s> {
                     material: material(scene, own.or(object.material)),
                     is_sheet: !analysis.contract.signed,
                 };
-                exact.push(Exact { ray, paint, structure });
+                exact.push(Exact { form, paint, structure, extent: analysis.extent });
             } else if analysis.extent != Extent::Empty {
                 // What is no safe step is searched by intervals, or needs no scale, or gets one from its slope; distances that it
                 // is cut with have slope 1.
@@ -396,8 +392,16 @@ impl<'r> Frame<'r> {
             Method::Fixed => Way::Fixed { step, has_sheets: renderer.paints.iter().any(|paint| paint.is_sheet) },
             Method::Relaxed => Way::Relaxed { relaxation: tracer.relaxation as f32 },
         };
+        // Three steps show a valley; the first two may come before it.
+        let ahead = match way {
+            Way::Fixed { step, has_sheets: true } => VALLEY_STEPS * f64::from(step),
+            _ => 0.0,
+        };
         let bounds = match renderer.bounds {
-            Extent::Finite(bounds) => Some(widened(bounds)),
+            Extent::Finite(bounds) => {
+                let Aabb { min, max } = widened(bounds);
+                Some(Aabb { min: min - ahead, max: max + ahead })
+            }
             Extent::Empty | Extent::Unbounded => None,
         };
         let occlusion = scene.occlusion.as_ref().map(|occlusion| {

@@ -137,17 +137,18 @@ impl Rays {
 
     fn meet_exact(&mut self, frame: &Frame<'_>) {
         self.exact.fill(Self::NOTHING);
-        self.limit.fill(frame.renderer.scene.tracer.max_distance);
+        let farthest = frame.renderer.scene.tracer.max_distance;
+        self.limit.fill(farthest);
         let objects = &frame.renderer.exact;
         if objects.is_empty() {
             return;
         }
         for index in 0..self.count {
-            let Ray { origin, direction } = self.ray(index);
+            let ray = self.ray(index);
             let nearest = objects
                 .iter()
                 .enumerate()
-                .filter_map(|(object, exact)| Some((object, exact.ray.hit(origin, direction)?)))
+                .filter_map(|(object, exact)| Some((object, exact.form.hit(&ray, farthest)?)))
                 .filter(|(_, t)| t.is_finite())
                 .min_by(|(_, a), (_, b)| a.total_cmp(b));
             if let Some((object, t)) = nearest {

@@ -3,7 +3,8 @@
 //! Shadow rays go from the surface towards the light, in waves like camera rays. Soft shadows come in two forms
 //! that differ in one number only: the factor is the least of `sharpness * clearance / distance` along the ray, from
 //! 0 at a hit to 1, where the sharpness is a light's hardness, or the distance to the light over the light's own
-//! clearance (K 6.1), or for a sun the cotangent of half its apparent diameter.
+//! clearance (K 6.1), or for a sun the cotangent of half its apparent diameter. What rays are intersected with exactly dims
+//! them in closed form, before they march.
 
 use crate::light::{Dimming, Incoming, Lamp};
 use crate::march::{Fate, Start};
@@ -96,15 +97,15 @@ impl<'f> Tracer<'f> {
                 origin: frame.origin + DVec3::from(origin.map(f64::from)),
                 direction: DVec3::from(direction.map(f64::from)),
             };
-            if frame.is_shadowed_exactly(&ray, distance) {
-                lit.factor = 0.0;
-                continue;
-            }
             let sharpness = match lamp.dimming {
                 Dimming::None | Dimming::Hard => None,
                 Dimming::Sharpness(sharpness) => Some(sharpness),
                 Dimming::Clearance(clearance) => Some(distance / clearance),
             };
+            lit.factor = frame.light_past_exact(&ray, distance, sharpness);
+            if lit.factor == 0.0 {
+                continue;
+            }
             let Some([near, far]) = frame.shadow_span(&ray, sharpness) else {
                 continue;
             };
@@ -132,7 +133,8 @@ impl<'f> Tracer<'f> {
         self.ends.clear();
         self.stats.evaluations += self.wave.travel(&space, quest, field, encloser, &mut self.splitter, &mut self.ends);
         for end in &self.ends {
-            lit[end.id as usize].factor = end.factor;
+            let factor = &mut lit[end.id as usize].factor;
+            *factor = factor.min(end.factor);
             self.stats.steps += u64::from(end.steps);
             self.stats.unresolved.shadow += u64::from(end.fate == Fate::Exhausted);
         }
@@ -140,12 +142,13 @@ impl<'f> Tracer<'f> {
 }
 
 impl Frame<'_> {
-    /// Whether an exact object lies on the ray before `distance`.
-    fn is_shadowed_exactly(&self, ray: &Ray, distance: f32) -> bool {
-        self.renderer
-            .exact
-            .iter()
-            .any(|exact| exact.ray.hit(ray.origin, ray.direction).is_some_and(|t| t < f64::from(distance)))
+    /// The share of a light `distance` away along a ray that comes past all exact objects.
+    fn light_past_exact(&self, ray: &Ray, distance: f32, sharpness: Option<f32>) -> f32 {
+        let limit = self.renderer.scene.tracer.max_distance;
+        let objects = self.renderer.exact.iter();
+        objects.fold(1.0, |least, exact| {
+            if least > 0.0 { exact.form.light_past(ray, distance.into(), limit, sharpness).min(least) } else { least }
+        })
     }
 
     /// The part of a shadow ray on which marched objects can dim it.

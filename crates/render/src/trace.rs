@@ -160,8 +160,10 @@ impl<'f> Tracer<'f> {
                     }
                 };
                 if lands {
-                    let at = |lists: &[Vec<f32>; 3]| [lists[0][ray], lists[1][ray], lists[2][ray]];
-                    self.cloud.push(add_scaled(at(&starts.origin), end.t, at(&starts.direction)));
+                    let Start { origin, direction, tolerance: [base, growth], .. } = self.rays.start(ray);
+                    // On the very surface many fields have no slope: then that of the way there, as near as is tolerated.
+                    let back = if end.value == 0.0 { (base + growth * end.t) * pace.scale } else { 0.0 };
+                    self.cloud.push(add_scaled(origin, end.t - back, direction));
                 }
                 lands
             });
@@ -190,7 +192,7 @@ impl<'f> Tracer<'f> {
                     if end.t == 0.0 && end.value < -limit {
                         self.stats.inside += 1;
                     }
-                    let position = self.cloud.point_at(index);
+                    let position = add_scaled(start.origin, end.t, start.direction);
                     let cell = self.wave.cell(&space, end.place);
                     self.landings.push(Landing { ray: end.id, cell, t: end.t, position, gradient });
                 }
@@ -367,10 +369,6 @@ impl Cloud {
         for (numbers, number) in self.point.iter_mut().zip(point) {
             numbers.push(number);
         }
-    }
-
-    fn point_at(&self, index: usize) -> Triple {
-        [self.point[0][index], self.point[1][index], self.point[2][index]]
     }
 
     pub(crate) fn gradient_at(&self, index: usize) -> Triple {

@@ -3,11 +3,11 @@
 mod common;
 
 use common::*;
-use freikugel_field::MaterialId;
 use freikugel_field::shapes::*;
+use freikugel_field::{Field, MaterialId};
 use freikugel_render::{Options, PrepareError, RenderError, Renderer, render};
 use freikugel_scene::{
-    Ambient, Background, Camera, Light, Material, Object, Occlusion, Pattern, Point, Scene, Shadow, Sun, Tracer,
+    Ambient, Background, Camera, Light, Material, Method, Object, Occlusion, Pattern, Point, Scene, Shadow, Sun, Tracer,
 };
 use glam::DVec3;
 
@@ -246,4 +246,33 @@ fn faults_are_reported() {
     let frozen = Scene { tracer: Tracer { step_factor: 0.0, ..Tracer::default() }, ..dark() };
     assert!(matches!(fault(&frozen, &good), RenderError::Prepare(PrepareError::Tracing(_))));
     assert!(matches!(fault(&dark(), &options(0, 8)), RenderError::Options(_)));
+}
+
+/// Where a ray ends on the surface itself, fields that are roots have no slope: there the normal is none that leads to the eye.
+#[test]
+fn surfaces_have_normals_where_values_vanish() {
+    let square = || polygon([[-0.25, -0.25], [0.25, -0.25], [0.25, 0.25], [-0.25, 0.25]]).extrude(1.0);
+    let shapes: [(Field, f64); 5] = [
+        (cuboid([0.5, 0.5, 1.0]).into(), 0.04),
+        (square(), 0.04),
+        (rectangle(0.5, 0.5).extrude(1.0), 0.04),
+        (cylinder(8.0, 1.0) & cuboid([0.5, 0.5, 2.0]), 0.04),
+        (sheet([0.0, 0.0, 1.0]) & cylinder(1.0, 1.0), 0.03),
+    ];
+    for (shape, edges) in shapes {
+        for method in Method::ALL {
+            let camera = Camera { eye: DVec3::new(2.5, -4.0, 3.0), ..Camera::default() };
+            let mut scene = Scene { camera: Some(camera), ..dark() };
+            add(&mut scene, shape.clone(), chalk());
+            scene.tracer = scene.tracer.method(method);
+            scene.tracer.step = Some(0.01);
+            let renderer = Renderer::new(&scene).expect("sound");
+            let (layers, _) = renderer.layers(&options(160, 120), &()).expect("layers");
+            let hits: Vec<_> = layers.pixels().iter().filter(|pixel| pixel.object.is_some()).collect();
+            let is_slanted = |normal: [f32; 3]| normal.iter().all(|along| along.abs() < 0.999);
+            let slanted = hits.iter().filter(|pixel| is_slanted(pixel.normal)).count();
+            let most = (edges * hits.len() as f64) as usize;
+            assert!(hits.len() > 300 && slanted <= most, "{method:?}: {slanted} of {} normals", hits.len());
+        }
+    }
 }

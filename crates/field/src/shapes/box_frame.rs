@@ -64,5 +64,5 @@ impl Primitive for BoxFrame {
 #[inline(always)]
 fn bar<S: Scalar>(x: S, y: S, z: S) -> S {
     let zero = x.lift(0.0);
-    S::length3(x.max(zero), y.max(zero), z.max(zero)) + x.max(y).max(z).min(zero)
+    S::length3(x.max(zero), y.max(zero), z.max(zero)) + zero.min(x.max(y).max(z))
 }

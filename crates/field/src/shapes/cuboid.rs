@@ -61,6 +61,6 @@ impl Primitive for Cuboid {
         let q = p.abs() - vec3(x, y, z);
         let zero = p.x.lift(0.0);
         let outside = S::length3(q.x.max(zero), q.y.max(zero), q.z.max(zero));
-        outside + q.x.max(q.y).max(q.z).min(zero) - round
+        outside + zero.min(q.x.max(q.y).max(q.z)) - round
     }
 }

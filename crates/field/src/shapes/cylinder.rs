@@ -64,6 +64,6 @@ impl Primitive for Cylinder {
         let side = S::length2(p.x, p.y) - radius;
         let end = p.z.abs() - half_height;
         let zero = p.x.lift(0.0);
-        S::length2(side.max(zero), end.max(zero)) + side.max(end).min(zero) - round
+        S::length2(side.max(zero), end.max(zero)) + zero.min(side.max(end)) - round
     }
 }

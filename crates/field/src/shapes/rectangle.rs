@@ -61,6 +61,6 @@ impl Primitive for Rectangle {
         let [x, y, round] = c.get();
         let zero = p.x.lift(0.0);
         let (x, y) = (p.x.abs() - x, p.y.abs() - y);
-        S::length2(x.max(zero), y.max(zero)) + x.max(y).min(zero) - round
+        S::length2(x.max(zero), y.max(zero)) + zero.min(x.max(y)) - round
     }
 }

@@ -221,7 +221,7 @@ impl Primitive for Boxes {
     fn distance<S: Scalar>(p: Vec3<S>, c: &Constants<'_, S>) -> S {
         let zero = p.x.lift(0.0);
         let (x, y, z) = (beyond(p.x, &c.part(0, 4)), beyond(p.y, &c.part(4, 4)), beyond(p.z, &c.part(8, 4)));
-        S::length3(x.max(zero), y.max(zero), z.max(zero)) + x.max(y).max(z).min(zero)
+        S::length3(x.max(zero), y.max(zero), z.max(zero)) + zero.min(x.max(y).max(z))
     }
 }
 

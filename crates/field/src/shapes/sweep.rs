@@ -119,7 +119,7 @@ impl Combine for Sweeping {
         if S::IS_ENCLOSURE {
             // Over the border of a piece, its depth is not known. What is outside of both is known from each by itself.
             let zero = figure.lift(0.0);
-            return S::length2(figure.max(zero), range.max(zero)) + figure.max(range).min(zero);
+            return S::length2(figure.max(zero), range.max(zero)) + zero.min(figure.max(range));
         }
         product::distance(figure, range)
     }

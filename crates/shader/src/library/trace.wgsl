@@ -168,7 +168,9 @@ fn march(ray: Ray, start: f32, end: f32, parts: i32) -> March {
             break;
         }
         part = i32(near.y);
-        gradient = part_gradient(part, ray.origin + t * ray.direction);
+        // On the very surface many fields have no slope: then that of the way there, as near as is tolerated.
+        let back: f32 = select(0.0, reach, near.x == 0.0);
+        gradient = part_gradient(part, ray.origin + (t - back) * ray.direction);
         let slope: f32 = max(length(gradient.xyz) * parameters[PARTS + PART_SIZE * part + 6], FLATTEST);
         if (is_unresolved && near.x >= CREEPING * share_at(near.y) * reach * slope) {
             part = -1;
