@@ -21,7 +21,7 @@ const SLACK: f64 = 16.0 * f32::EPSILON as f64;
 /// Inverse components of directions are no larger: where a ray goes along a side of a box, there is no division by 0.
 const STEEPEST: f32 = 1e18;
 
-/// Equal balls around the points of a [`crate::shapes::point_set`].
+/// Equal balls around the points of a [`crate::shapes::point_set()`].
 #[derive(Clone, Debug)]
 pub struct Balls {
     /// The boxes of the tree, by their middle and half their size, relative to `middle`; and the points in its leaves.
