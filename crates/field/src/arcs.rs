@@ -1,7 +1,7 @@
 //! Figures bounded by Bézier curves, and by others with known directions, as lines of straight edges and arcs, which are those of
 //! curves in space that stay in the plane.
 
-use crate::arcs3::{Divisible, of_curve};
+use crate::arcs3::{Arc3, Divisible, of_curve};
 use crate::curve::Bezier;
 use glam::{DVec2, DVec3};
 
@@ -84,7 +84,6 @@ impl Lines {
     /// drawn.
     pub(crate) fn follow(&mut self, curve: Curve<'_>, [from, to]: [f64; 2]) {
         self.arcs(&Stretch { curve, from, to });
-        self.at = curve(to).0;
     }
 
     /// Closes the line that is being drawn.
@@ -115,12 +114,16 @@ impl Lines {
     /// A Bézier curve from where the line is, by its other control points.
     pub(crate) fn bezier_to(&mut self, points: &[DVec2]) {
         self.arcs(&Bezier::new([self.at].iter().chain(points).map(|point| point.extend(0.0)).collect()));
-        self.at = points[points.len() - 1];
     }
 
     /// The arcs of a curve in the plane.
     fn arcs<C: Divisible>(&mut self, curve: &C) {
-        for arc in of_curve(curve, self.tolerance) {
+        self.along(of_curve(curve, self.tolerance));
+    }
+
+    /// A chain of arcs in the plane that begins where the line is.
+    pub(crate) fn along(&mut self, arcs: Vec<Arc3>) {
+        for arc in arcs {
             let (from, to) = (arc.from.truncate(), arc.to.truncate());
             if from != to {
                 // An arc to the left of its chord turns to the right.
@@ -128,6 +131,7 @@ impl Lines {
                 let turn = 2.0 * arc.half_turn();
                 self.corners.push([from.x, from.y, if is_left { 0.0 - turn } else { turn }]);
             }
+            self.at = to;
         }
     }
 }

@@ -46,6 +46,7 @@ mod focus;
 pub mod formula;
 mod formula_kernel;
 mod glyphs;
+mod graphs;
 pub mod kernel;
 mod lower;
 pub mod mix;

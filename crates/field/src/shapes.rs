@@ -49,6 +49,7 @@ pub mod exponential;
 pub mod extrude;
 mod facets;
 pub mod formula;
+pub mod formula_graph;
 pub mod gear;
 pub mod graph;
 pub mod groove;
@@ -145,6 +146,7 @@ pub mod triangle;
 pub mod truncated_octahedron;
 pub mod tube;
 pub mod twist;
+pub mod under_formula_graph;
 pub mod under_graph;
 pub mod uneven_capsule;
 pub mod union;
@@ -194,6 +196,7 @@ pub use engrave::*;
 pub use exponential::*;
 pub use extrude::*;
 pub use formula::*;
+pub use formula_graph::*;
 pub use gear::*;
 pub use graph::*;
 pub use groove::*;
@@ -287,6 +290,7 @@ pub use triangle::*;
 pub use truncated_octahedron::*;
 pub use tube::*;
 pub use twist::*;
+pub use under_formula_graph::*;
 pub use under_graph::*;
 pub use uneven_capsule::*;
 pub use union::*;
@@ -348,6 +352,7 @@ pub static ALL: &[&Shape] = &[
     &EXPONENTIAL_DIFFERENCE,
     &EXTRUDE,
     &FORMULA,
+    &FORMULA_GRAPH,
     &GEAR,
     &GRAPH,
     &GROOVE,
@@ -447,6 +452,7 @@ pub static ALL: &[&Shape] = &[
     &TRUNCATED_OCTAHEDRON,
     &TUBE,
     &TWIST,
+    &UNDER_FORMULA_GRAPH,
     &UNDER_GRAPH,
     &UNEVEN_CAPSULE,
     &UNION,

@@ -39,14 +39,20 @@ pub(crate) const COEFFICIENTS: Param = Param::required(
     "What the powers of x are multiplied by, from the constant on: [1, 0, -2] is 1 - 2 x^2. At most 21.",
 );
 
+/// What is wrong with the ends of a graph.
+///
+/// # Errors
+/// The fault.
+pub(crate) fn check_ends(name: &str, [from, to]: [f64; 2]) -> Result<(), String> {
+    if to > from { Ok(()) } else { Err(format!("`to` of `{name}` is not above `from`")) }
+}
+
 /// What is wrong with a graph.
 ///
 /// # Errors
 /// The fault.
-pub(crate) fn check(name: &str, [from, to]: [f64; 2], coefficients: &[f64]) -> Result<(), String> {
-    if to <= from {
-        return Err(format!("`to` of `{name}` is not above `from`"));
-    }
+pub(crate) fn check(name: &str, ends: [f64; 2], coefficients: &[f64]) -> Result<(), String> {
+    check_ends(name, ends)?;
     if coefficients.len() > MOST_DEGREE + 1 {
         return Err(format!(
             "`{name}` has {} coefficients; at most {} are possible",

@@ -26,8 +26,12 @@ pub fn under_graph<V: Into<Value>>(
     Form::new(&UNDER_GRAPH, before.into_iter().chain(coefficients.into_iter().map(Into::into)))
 }
 
+/// Where the axis is that the area reaches to.
+pub(crate) const BASE: Param =
+    Param::optional("base", ParamKind::Number, &[0.0], "The height y of the line that takes the place of the x axis.");
+
 /// Arcs are within this share of the figure's size from the graph.
-const TOLERANCE: f64 = 1e-4;
+pub(crate) const TOLERANCE: f64 = 1e-4;
 
 impl Special for UnderGraph {
     type General = Outline;
@@ -35,17 +39,7 @@ impl Special for UnderGraph {
     const ABOUT: About = About {
         name: "under_graph",
         summary: "A plane figure: all between the graph of a polynomial and the x axis, on either side of it.",
-        params: &[
-            FROM,
-            TO,
-            Param::optional(
-                "base",
-                ParamKind::Number,
-                &[0.0],
-                "The height y of the line that takes the place of the x axis.",
-            ),
-            COEFFICIENTS,
-        ],
+        params: &[FROM, TO, BASE, COEFFICIENTS],
         elsewhere: &["area under a curve", "function graph", "y < f(x)"],
         example: r#"{ "revolve": { "shape": { "rotate": { "axis": "z", "angle": 90, "shape": { "under_graph": { "from": -1, "to": 1,
             "coefficients": [-0.35, -0.5, 0.1, 0.6] } } } } } }"#,

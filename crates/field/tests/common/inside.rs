@@ -356,7 +356,15 @@ pub(crate) fn contains(field: &Field, p: DVec3) -> Option<bool> {
         ("superellipse" | "gear" | "spiral" | "logarithmic_spiral" | "clothoid", _) => return None,
         ("text" | "svg" | "svg_path" | "bezier" | "b_spline" | "spline", _) => return None,
         (
-            "stroke" | "graph" | "under_graph" | "nurbs" | "tapered_bezier" | "tapered_b_spline" | "tapered_spline"
+            "stroke"
+            | "graph"
+            | "under_graph"
+            | "formula_graph"
+            | "under_formula_graph"
+            | "nurbs"
+            | "tapered_bezier"
+            | "tapered_b_spline"
+            | "tapered_spline"
             | "sweep",
             _,
         ) => return None,

@@ -157,6 +157,7 @@ const PATHS: [&str; 3] = [
     "M-1 -1 H1 V1 H-1 Z M-0.5 -0.5 V0.5 H0.5 V-0.5 Z",
 ];
 const TEXTS: [&str; 3] = ["&a", "oi\n8", "Ä"];
+const FORMULAS: [&str; 4] = ["sin(5 * x) / 3", "abs(x - 0.1) - 0.4", "sqrt(0.6 - x)", "0.2"];
 const PICTURES: [&str; 2] = [
     "<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 0H2V1H1Z'/><circle r='1' fill='none' stroke='red'/></svg>",
     "<svg xmlns='http://www.w3.org/2000/svg'><rect width='2' height='1' rx='0.3' transform='rotate(20)'/></svg>",
@@ -218,6 +219,7 @@ fn random_arguments(shape: &Shape, random: &mut Random) -> Vec<Value> {
             let known = match param.name {
                 "d" => &PATHS[..],
                 "picture" => &PICTURES[..],
+                "f" => &FORMULAS[..],
                 _ => &TEXTS[..],
             };
             args.extend(known[random.below(known.len())].chars().map(|c| Value::from(u32::from(c))));
