@@ -57,6 +57,7 @@ pub mod outline;
 mod point_tree;
 pub mod program;
 mod prune;
+mod range;
 pub mod ray;
 mod remember;
 pub mod scalar;

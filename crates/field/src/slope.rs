@@ -66,10 +66,10 @@ impl Program {
     }
 }
 
-/// A part of the region, ordered by the bound over it.
-struct Part {
-    bound: f64,
-    region: [Interval; 3],
+/// A part of a region, ordered by the bound over it.
+pub(crate) struct Part {
+    pub(crate) bound: f64,
+    pub(crate) region: [Interval; 3],
 }
 
 impl Ord for Part {

@@ -92,6 +92,51 @@ fn a_slope_over_a_region_is_not_lazy() {
 }
 
 #[test]
+fn a_range_over_a_region_holds_all_values_and_little_else() {
+    let mut random = Random::new(44);
+    for (index, (name, field)) in fields(&mut random).into_iter().enumerate() {
+        let program = program(field);
+        let half = [0.05, 0.3, 1.0][index % 3];
+        let region = cube(random.point(0.5), half);
+        let range = program.range_over(region);
+        // Also corners, where the least and largest values often are.
+        let mut at = || {
+            let side = |side: Interval| random.range(-0.3, 1.3).clamp(0.0, 1.0) * side.width() + side.lo();
+            DVec3::from_array(region.map(side))
+        };
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in (0..3000).map(|_| program.value(at())) {
+            assert!(range.contains(value), "{name}: {value} outside of {range:?}");
+            (low, high) = (low.min(value), high.max(value));
+        }
+        // Blends are so intricate that the search stops early.
+        let is_near = range.width() < 1.25 * (high - low) || name.contains("blended");
+        assert!(is_near, "{name} over {region:?}: {range:?} for {low} to {high}");
+    }
+}
+
+#[test]
+fn known_ranges_are_found() {
+    let over = |text: &str, sides: [[f64; 2]; 3]| {
+        let range = program(formula(text)).range_over(sides.map(|[lo, hi]| Interval::new(lo, hi)));
+        [range.lo(), range.hi()]
+    };
+    for (text, sides, expected) in [
+        ("x^2 - x", [[0.0, 1.0], [0.0; 2], [0.0; 2]], [-0.25, 0.0]),
+        ("x*y - z", [[0.0, 1.0], [-1.0, 1.0], [0.5; 2]], [-1.5, 0.5]),
+        ("3", [[0.0, 1.0]; 3], [3.0, 3.0]),
+        ("x", [[2.0; 2]; 3], [2.0, 2.0]),
+    ] {
+        let found = over(text, sides);
+        let slack = 1e-3 * (expected[1] - expected[0]) + 1e-12;
+        assert!(found[0] <= expected[0] && found[1] >= expected[1], "{text}: {found:?}");
+        assert!(found[0] >= expected[0] - slack && found[1] <= expected[1] + slack, "{text}: {found:?}");
+    }
+    // Where there is no value, or no bound, there is none.
+    assert_eq!(over("1 / x", [[-1.0, 1.0]; 3]), [f64::NEG_INFINITY, f64::INFINITY]);
+}
+
+#[test]
 fn known_slopes_are_found() {
     let over = |field: Field, half: f64| program(field).lipschitz_over(cube(DVec3::ZERO, half));
     let is_near = |bound: Option<f64>, exact: f64| {

@@ -6,6 +6,7 @@
 mod bench;
 mod check;
 mod compare;
+mod formula;
 mod frame;
 mod graphics;
 mod help;
@@ -35,6 +36,7 @@ Examples:
   freikugel bench --gpu
   freikugel shader cup.json --target shadertoy -o cup.glsl
   freikugel check cup.json
+  freikugel formula \"x^2 + y^2 - 1\" --derive x --at 1,2,3
   freikugel help shapes torus";
 
 /// Pictures of signed distance fields.
@@ -66,6 +68,8 @@ enum Command {
     Check(SceneFiles),
     /// Show what a scene is made of: its tree, contracts, boxes, and counts.
     Info(info::Arguments),
+    /// Explain a formula: simplified, its derivatives, its values at points, and its range over boxes.
+    Formula(formula::Arguments),
     /// Print the JSON Schema of scene files.
     Schema,
     /// Explain a command, or the shapes: `help shapes`, `help shapes torus`.
@@ -129,6 +133,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Shader(arguments) => shader::run(&arguments),
         Command::Check(files) => check::run(&files.scenes),
         Command::Info(arguments) => info::run(&arguments),
+        Command::Formula(arguments) => formula::run(&arguments),
         Command::Schema => {
             let schema = freikugel::scene::schema();
             let text = serde_json::to_string_pretty(&schema).map_err(|error| Failure::Input(error.to_string()))?;

@@ -230,6 +230,8 @@ fn info_schema_and_help_say_what_there_is() {
             { "name": "cut", "shape": { "formula": { "f": "3*x", "within": { "sphere": 2 } } } },
             { "name": "quadric", "shape": { "formula": { "f": "x^2 - y", "within": { "sphere": 2 } } } },
             { "name": "warped", "shape": { "warp": { "y": "y + sin(x)", "shape": { "sphere": { "radius": 1 } } } } },
+            { "name": "graph", "shape": { "extrude": { "height": 1, "shape": { "formula_graph":
+                { "width": 0.1, "from": 0, "to": 1, "f": "sin(x)" } } } } },
             { "name": "open", "shape": { "formula": "x*y - 1" } } ] }"#,
     );
     let text = stdout(&folder.run(&["info", "found.json"]));
@@ -240,6 +242,7 @@ fn info_schema_and_help_say_what_there_is() {
         "within (-2.0000, -2.0000, -2.0000) to (2.0000, 2.0000, 2.0000)]",
         "object \"warped\", material \"\", box (-1.0000, -2.0000, -1.0000) to (1.0000, 2.0000, 1.0000)",
         "warp y=\"y + sin(x)\" within=",
+        "formula_graph width=0.1 from=0 to=1 f=\"sin(x)\"  [exact outside",
         "object \"open\", material \"\", unbounded",
         "[implicit, slope unknown]",
     ] {

@@ -21,8 +21,8 @@ pub(super) struct Arguments {
     gpu: bool,
 }
 
-/// How many characters of a formula are shown: those of models can fill many pages.
-const LONGEST_FORMULA: usize = 200;
+/// How many characters of a formula or another text are shown: those of models can fill many pages.
+const LONGEST_TEXT: usize = 200;
 
 /// How many numbers of a list are shown: there may be millions.
 const LONGEST_LIST: usize = 24;
@@ -84,14 +84,8 @@ fn tree(field: &Field, depth: usize, scene: &Scene, text: &mut String) {
     let about = &node.shape.about;
     let _ = write!(text, "{:indent$}{}", "", about.name, indent = 2 * depth);
     for (param, formula) in about_formulas(field) {
-        let written = formula.text();
-        let _ = match written.char_indices().nth(LONGEST_FORMULA) {
-            None => write!(text, " {}={written:?}", param.name),
-            Some((end, _)) => {
-                let operations = formula.terms().len();
-                write!(text, " {}={:?}... ({operations} operations)", param.name, &written[..end])
-            }
-        };
+        let size = || count(formula.terms().len(), "operation");
+        let _ = write!(text, " {}={}", param.name, quoted(formula.text(), size));
     }
     for (index, param) in about.params.iter().enumerate() {
         let _ = write!(text, " {}={}", param.name, written(param.kind, &node.argument(index)));
@@ -127,6 +121,12 @@ fn written(kind: ParamKind, numbers: &[f64]) -> String {
         _ => number.to_string(),
     };
     let rest = match (kind, numbers) {
+        (ParamKind::Text, characters) => {
+            let character = |code: &f64| char::from_u32(*code as u32).unwrap_or(char::REPLACEMENT_CHARACTER);
+            return quoted(&characters.iter().map(character).collect::<String>(), || {
+                count(characters.len(), "character")
+            });
+        }
         (ParamKind::Knots, [name]) => {
             return ParamKind::KNOTS.get(*name as usize).copied().unwrap_or_default().to_owned();
         }
@@ -138,6 +138,14 @@ fn written(kind: ParamKind, numbers: &[f64]) -> String {
         let _ = write!(text, ",... ({} numbers)", rest.len());
     }
     text
+}
+
+/// A text as a scene file has it, or what it begins with and its size.
+fn quoted(text: &str, size: impl Fn() -> String) -> String {
+    match text.char_indices().nth(LONGEST_TEXT) {
+        None => format!("{text:?}"),
+        Some((end, _)) => format!("{:?}... ({})", &text[..end], size()),
+    }
 }
 
 /// A count with its noun.
