@@ -6,14 +6,17 @@ use common::{Random, is_blend};
 use freikugel_field::kernel::{BATCH, Block, CombineJob};
 use freikugel_field::shape::{CombineTable, Settled};
 use freikugel_field::{
-    Constants, Extent, Field, Interval, Kind, Program, Shape, Structure, analyse, extent, shapes, simd,
+    Constants, Extent, Field, Interval, Kind, ParamKind, Program, Shape, Structure, analyse, extent, shapes, simd,
 };
 use freikugel_field::{Origin, Value};
 use glam::DVec3;
 
-/// All blends with the families' tables.
+/// All blends with the families' tables, and the common ones.
 fn blends() -> impl Iterator<Item = (&'static Shape, &'static CombineTable)> {
-    shapes::ALL.iter().filter(|shape| is_blend(shape.about.name)).map(|shape| match &shape.kind {
+    let common = ["smooth_union", "smooth_intersection", "smooth_difference"];
+    let blends =
+        shapes::ALL.iter().filter(move |shape| is_blend(shape.about.name) || common.contains(&shape.about.name));
+    blends.map(|shape| match &shape.kind {
         Kind::Combine(table) => (*shape, table),
         _ => panic!("{} is no combination", shape.about.name),
     })
@@ -22,6 +25,8 @@ fn blends() -> impl Iterator<Item = (&'static Shape, &'static CombineTable)> {
 /// Several choices of a blend's own parameter.
 fn own(shape: &Shape) -> &'static [Option<f64>] {
     match shape.about.params[1].name {
+        // Of the common ones, the place among two.
+        "order" if matches!(shape.about.params[1].kind, ParamKind::Choice(_)) => &[Some(0.0), Some(1.0)],
         "order" => &[Some(1.1), Some(2.0), Some(3.7)],
         "steps" => &[Some(1.0), Some(2.0), Some(5.0)],
         "columns" => &[Some(2.0), Some(3.0), Some(6.0)],

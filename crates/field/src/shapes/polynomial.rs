@@ -38,12 +38,20 @@ fn order(args: &[f64]) -> f64 {
     2.0 + args[1]
 }
 
+/// How many constants [`prepare`] yields.
+pub(crate) const WIDTH: usize = 9;
+
+/// The constant that is the difference of the operands from which on only one of them matters.
+pub(crate) const REACH: usize = 8;
+
 /// The constants of [`smooth_min`] and [`share`].
 pub(crate) fn prepare(args: &[f64]) -> Vec<f64> {
-    let k = args[0];
-    let inverse = if k > 0.0 { 1.0 / k } else { 0.0 };
-    let cubic = args[1];
-    vec![k, inverse, depth(args) * (1.0 - cubic), depth(args) * cubic, 0.5 * (1.0 - cubic), 0.5 * cubic]
+    let &[k, cubic, mix, ..] = args else { unreachable!("three numbers at least") };
+    let inverse = |k: f64| if k > 0.0 { 1.0 / k } else { 0.0 };
+    let mixed = k * mix;
+    let depths = [depth(args) * (1.0 - cubic), depth(args) * cubic];
+    let shares = [0.5 * (1.0 - cubic), 0.5 * cubic];
+    vec![k, inverse(k), depths[0], depths[1], mixed, inverse(mixed), shares[0], shares[1], k.max(mixed)]
 }
 
 /// The smooth minimum. Without a blend (k = 0) it is the plain one.
@@ -56,7 +64,7 @@ pub(crate) fn smooth_min<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
 
 #[inline(always)]
 fn plain_smooth_min<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
-    let [k, inverse, square, cubic, _, _] = c.get();
+    let [k, inverse, square, cubic] = c.get();
     let h = (k - (a - b).abs()).max(a.lift(0.0)) * inverse;
     a.min(b) - h.square() * (square + cubic * h)
 }
@@ -64,7 +72,7 @@ fn plain_smooth_min<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
 /// The share of `b` in the smooth minimum.
 #[inline(always)]
 pub(crate) fn share<S: Scalar>(a: S, b: S, c: &Constants<'_, S>) -> S {
-    let [k, inverse, _, _, linear, square] = c.get();
+    let [_, _, _, _, k, inverse, linear, square] = c.get();
     let h = (k - (a - b).abs()).max(a.lift(0.0)) * inverse;
     let farther = h * (linear + square * h);
     S::select(b.lt(a), -farther + 1.0, farther)

@@ -1,5 +1,6 @@
 //! Intersection with a polynomial blend. A bound.
 
+use super::blend::MIX;
 use super::difference::{KEEP_MATERIAL, common};
 use super::intersection::greater;
 use super::polynomial;
@@ -22,7 +23,7 @@ impl Combine for SmoothIntersection {
     const ABOUT: About = About {
         name: "smooth_intersection",
         summary: "An intersection with smoothly worn edges; materials mix across them.",
-        params: &[polynomial::K, polynomial::ORDER, KEEP_MATERIAL],
+        params: &[polynomial::K, polynomial::ORDER, MIX, KEEP_MATERIAL],
         elsewhere: &["smax", "opSmoothIntersection"],
         example: r#"{ "smooth_intersection": { "k": 0.3, "shapes":
             [ { "sphere": { "radius": 0.9 } }, { "box": { "size": 1.4 } } ] } }"#,
@@ -44,7 +45,7 @@ impl Combine for SmoothIntersection {
     }
 
     fn settle(a: Interval, b: Interval, constants: &[f64]) -> Settled {
-        greater(a, b, constants[0], constants[KEEP])
+        greater(a, b, constants[polynomial::REACH], constants[KEEP])
     }
 
     #[inline(always)]
@@ -59,11 +60,11 @@ impl Combine for SmoothIntersection {
 }
 
 /// The index of the constant that says whether the first material is kept.
-pub(crate) const KEEP: usize = 6;
+pub(crate) const KEEP: usize = polynomial::WIDTH;
 
 /// The blend's constants, followed by whether the first material is kept.
 pub(crate) fn with_keep(args: &[f64]) -> Vec<f64> {
     let mut constants = polynomial::prepare(args);
-    constants.push(args[2]);
+    constants.push(args[3]);
     constants
 }
