@@ -34,7 +34,11 @@ fn formulas_are_explained() {
     assert!(text.starts_with("-x\n  1 operation in x, a polynomial of degree 1\nderivative by x\n  -1\n"), "{text}");
     assert!(explained(&["2 * 3"]).starts_with("6\n  0 operations with a constant result"), "{}", explained(&["2 * 3"]));
     let text = explained(&["ln(x)", "--at", "0.5,0,0", "--at=-1,0,0"]);
-    assert!(text.contains("value     -0.6931471806\n") && text.contains("at (-1, 0, 0)\n  value     none\n"), "{text}");
+    assert!(
+        text.contains("value     -0.6931471806\n")
+            && text.contains("at (-1, 0, 0)\n  value     none\n  gradient  (none, none, none)"),
+        "{text}"
+    );
 }
 
 /// The numbers after a word in a line, which has others before.

@@ -27,9 +27,9 @@
 //! # How a picture comes about
 //!
 //! Threads take tiles in turn. A tile's rays travel in waves of some thousands, each stage working on all of them before
-//! the next begins: cast rays and intersect planes and equal balls exactly; march through everything else, batch by batch; normals by
-//! dual numbers at the hits; shares of the materials there; ambient occlusion; for each light, shadow rays for the hits
-//! that face it. All policy is decided per picture, light or wave, never per step.
+//! the next begins: cast rays and intersect planes and equal balls exactly; march through everything else, batch by batch;
+//! normals by dual numbers at the hits; shares of the materials there; ambient occlusion; for each light, shadow rays for the
+//! hits that face it. All policy is decided per picture, light or wave, never per step.
 //!
 //! Rays are made in double precision, start their march at the wall of the box around the objects, and are rounded to
 //! single precision once, relative to an origin near the camera. A ray stops when the surface is nearer than a tolerance

@@ -34,6 +34,25 @@ pub(crate) const F: Param = Param::required(
     "The height y as a formula in x, such as `\"sin(3 * x) / 2\"`. It must have a value, and no jump, from one end to the other.",
 );
 
+/// What is wrong with the graph of a formula between two ends, given how its arguments are made, and how they are remembered: as none if
+/// something is.
+///
+/// # Errors
+/// The fault.
+pub(crate) fn check_graph(
+    name: &str,
+    ends: [f64; 2],
+    args: &[f64],
+    remembered: fn(&[f64]) -> Vec<f64>,
+    made: fn(&[f64]) -> Result<Vec<f64>, String>,
+) -> Result<(), String> {
+    check_ends(name, ends)?;
+    if !remembered(args).is_empty() {
+        return Ok(());
+    }
+    made(args).map(|_| ()).map_err(|fault| format!("`f` of `{name}` {fault}"))
+}
+
 fn arguments(args: &[f64]) -> Result<Vec<f64>, String> {
     let graph = Graph::new(&args[3..], [args[1], args[2]])?;
     Ok(along(args[0] / 2.0, graph.arcs(args[0] / 2.0 * TOLERANCE)?))
@@ -52,11 +71,7 @@ impl Special for FormulaGraph {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        check_ends("formula_graph", [args[1], args[2]])?;
-        match Self::general(args).is_empty() {
-            true => arguments(args).map(|_| ()).map_err(|fault| format!("`f` of `formula_graph` {fault}")),
-            false => Ok(()),
-        }
+        check_graph("formula_graph", [args[1], args[2]], args, Self::general, arguments)
     }
 
     fn general(args: &[f64]) -> Vec<f64> {

@@ -6,13 +6,6 @@
 
 use crate::shape_prelude::*;
 
-/// How far the blend reaches.
-pub(crate) const K: Param = Param::required(
-    "k",
-    ParamKind::Length,
-    "Visible size: how far from a right-angled edge the blend leaves the face; 0 for none.",
-);
-
 /// The order of the polynomial.
 pub(crate) const ORDER: Param = Param::optional(
     "order",

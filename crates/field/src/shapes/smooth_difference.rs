@@ -1,6 +1,6 @@
 //! Difference with a polynomial blend. A bound.
 
-use super::blend::MIX;
+use super::blend::{K, MIX};
 use super::difference::{KEEP_MATERIAL, common, cut, subtrahend};
 use super::polynomial;
 use super::smooth_intersection::{KEEP, with_keep};
@@ -23,7 +23,7 @@ impl Combine for SmoothDifference {
     const ABOUT: About = About {
         name: "smooth_difference",
         summary: "A difference with smoothly worn edges; materials mix across them.",
-        params: &[polynomial::K, polynomial::ORDER, MIX, KEEP_MATERIAL],
+        params: &[K, polynomial::ORDER, MIX, KEEP_MATERIAL],
         elsewhere: &["opSmoothSubtraction"],
         example: r#"{ "smooth_difference": { "k": 0.2, "shapes":
             [ { "box": { "size": 1.4 } }, { "sphere": { "radius": 0.9 } } ] } }"#,

@@ -1,6 +1,6 @@
 //! Intersection with a polynomial blend. A bound.
 
-use super::blend::MIX;
+use super::blend::{K, MIX};
 use super::difference::{KEEP_MATERIAL, common};
 use super::intersection::greater;
 use super::polynomial;
@@ -23,7 +23,7 @@ impl Combine for SmoothIntersection {
     const ABOUT: About = About {
         name: "smooth_intersection",
         summary: "An intersection with smoothly worn edges; materials mix across them.",
-        params: &[polynomial::K, polynomial::ORDER, MIX, KEEP_MATERIAL],
+        params: &[K, polynomial::ORDER, MIX, KEEP_MATERIAL],
         elsewhere: &["smax", "opSmoothIntersection"],
         example: r#"{ "smooth_intersection": { "k": 0.3, "shapes":
             [ { "sphere": { "radius": 0.9 } }, { "box": { "size": 1.4 } } ] } }"#,

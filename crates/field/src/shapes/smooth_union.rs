@@ -1,6 +1,6 @@
 //! Union with a polynomial blend. A bound.
 
-use super::blend::MIX;
+use super::blend::{K, MIX};
 use super::polynomial;
 use crate::shape_prelude::*;
 
@@ -21,7 +21,7 @@ impl Combine for SmoothUnion {
     const ABOUT: About = About {
         name: "smooth_union",
         summary: "A union with smoothly filled seams; materials mix across them.",
-        params: &[polynomial::K, polynomial::ORDER, MIX],
+        params: &[K, polynomial::ORDER, MIX],
         elsewhere: &["smin", "opSmoothUnion", "blend"],
         example: r#"{ "smooth_union": { "k": 0.4, "shapes":
             [ { "sphere": { "radius": 0.7 } }, { "box": { "size": [2, 0.6, 0.6] } } ] } }"#,

@@ -1,11 +1,10 @@
 //! Area between the graph of a formula in x and a line along x. Its border becomes arcs that are proven to be within a tolerance, from
 //! which the distance is exact.
 
-use super::formula_graph::F;
-use super::graph::{FROM, TO, check_ends};
+use super::formula_graph::{F, check_graph};
+use super::graph::{FROM, TO};
 use super::outline::Outline;
-use super::under_graph::{BASE, TOLERANCE};
-use crate::arcs::Lines;
+use super::under_graph::{BASE, TOLERANCE, base_line};
 use crate::graphs::Graph;
 use crate::remember::remembered;
 use crate::shape_prelude::*;
@@ -34,10 +33,7 @@ fn arguments(args: &[f64]) -> Result<Vec<f64>, String> {
     if arcs.iter().all(|arc| arc.from.y == base && arc.to.y == base && arc.half_turn() == 0.0) {
         return Err("surrounds nothing: its graph lies on its base".into());
     }
-    let mut lines = Lines::new(tolerance);
-    lines.move_to(DVec2::new(to, base));
-    lines.line_to(DVec2::new(from, base));
-    lines.line_to(arcs[0].from.truncate());
+    let mut lines = base_line([from, to], base, arcs[0].from.truncate(), tolerance);
     lines.along(arcs);
     Ok(lines.finish())
 }
@@ -55,11 +51,7 @@ impl Special for UnderFormulaGraph {
     };
 
     fn check(args: &[f64]) -> Result<(), String> {
-        check_ends("under_formula_graph", [args[0], args[1]])?;
-        match Self::general(args).is_empty() {
-            true => arguments(args).map(|_| ()).map_err(|fault| format!("`f` of `under_formula_graph` {fault}")),
-            false => Ok(()),
-        }
+        check_graph("under_formula_graph", [args[0], args[1]], args, Self::general, arguments)
     }
 
     fn general(args: &[f64]) -> Vec<f64> {

@@ -33,6 +33,15 @@ pub(crate) const BASE: Param =
 /// Arcs are within this share of the figure's size from the graph.
 pub(crate) const TOLERANCE: f64 = 1e-4;
 
+/// The border of an area along its base, up to where its graph begins.
+pub(crate) fn base_line([from, to]: [f64; 2], base: f64, begin: DVec2, tolerance: f64) -> Lines {
+    let mut lines = Lines::new(tolerance);
+    lines.move_to(DVec2::new(to, base));
+    lines.line_to(DVec2::new(from, base));
+    lines.line_to(begin);
+    lines
+}
+
 impl Special for UnderGraph {
     type General = Outline;
 
@@ -59,10 +68,7 @@ impl Special for UnderGraph {
             let curve = curve([from, to], coefficients);
             let points: Vec<DVec2> = curve.points().iter().map(|point| point.truncate()).collect();
             let size = points.iter().map(|point| (point.y - base).abs()).fold(to - from, f64::max);
-            let mut lines = Lines::new(size * TOLERANCE);
-            lines.move_to(DVec2::new(to, base));
-            lines.line_to(DVec2::new(from, base));
-            lines.line_to(points[0]);
+            let mut lines = base_line([from, to], base, points[0], size * TOLERANCE);
             lines.bezier_to(&points[1..]);
             lines.finish()
         })

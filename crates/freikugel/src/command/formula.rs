@@ -1,8 +1,9 @@
 //! `freikugel formula`: what a formula means: simplified, derived, at points and over boxes.
 
+use super::info::count;
 use super::{Failure, print};
 use freikugel::field::formula::{Formula, FormulaError, Term};
-use freikugel::field::{Dual, Interval, Program, Structure, shapes};
+use freikugel::field::{Dual, Form, Interval, Program, Structure, shapes};
 use glam::DVec3;
 use std::fmt::Write;
 
@@ -93,7 +94,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         at(&formula, &derivatives, point, &mut text);
     }
     if !arguments.over.is_empty() {
-        let field = shapes::formula(&arguments.formula).into();
+        let field = Form::<shapes::Formula>::from(formula).into();
         let structure = Structure::compile(&[field]).map_err(|faults| {
             Failure::Input(faults.iter().map(ToString::to_string).collect::<Vec<String>>().join("\n"))
         })?;
@@ -118,9 +119,9 @@ fn kind(formula: &Formula) -> String {
         [rest @ .., last] => format!("in {} and {last}", rest.join(", ")),
     };
     let is_operation = |term: &&Term| !matches!(term, Term::Input(_) | Term::Literal(_));
-    let count = formula.terms().iter().filter(is_operation).count();
+    let operations = count(formula.terms().iter().filter(is_operation).count(), "operation");
     let degree = formula.polynomial().map(|polynomial| format!(", a polynomial of degree {}", polynomial.degree()));
-    format!("{count} operation{} {inputs}{}", if count == 1 { "" } else { "s" }, degree.unwrap_or_default())
+    format!("{operations} {inputs}{}", degree.unwrap_or_default())
 }
 
 /// A formula as it prints; the beginning of one that is long.
@@ -147,7 +148,8 @@ fn triple(v: DVec3) -> String {
 
 fn at(formula: &Formula, derivatives: &[(String, Formula)], point: DVec3, text: &mut String) {
     let dual = formula.eval([0, 1, 2].map(|axis| Dual::input(point[axis], axis)).into());
-    let gradient = DVec3::from(dual.gradient);
+    // Where there is no value, there is no slope, whatever the derivatives are there.
+    let gradient = if dual.value.is_nan() { DVec3::NAN } else { dual.gradient.into() };
     let _ = writeln!(text, "at {}\n  value     {}", triple(point), brief(dual.value));
     let _ = writeln!(text, "  gradient  {}, {} long", triple(gradient), brief(gradient.length()));
     for (name, derivative) in derivatives {

@@ -149,7 +149,7 @@ fn quoted(text: &str, size: impl Fn() -> String) -> String {
 }
 
 /// A count with its noun.
-fn count(number: usize, noun: &str) -> String {
+pub(super) fn count(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 
