@@ -203,7 +203,9 @@ fn cargo(workspace: &Path, tests: &[String], is_build: bool) -> Result<Option<Ex
         command.arg("--no-run");
     }
     let target = workspace.with_file_name("target");
-    command.current_dir(workspace).env("CARGO_TARGET_DIR", target).stdout(Stdio::null()).stderr(Stdio::null());
+    // One file at a time changes, so that most of what was built before can be kept.
+    command.current_dir(workspace).env("CARGO_TARGET_DIR", target).env("CARGO_INCREMENTAL", "1");
+    command.stdout(Stdio::null()).stderr(Stdio::null());
     command.process_group(0);
     let mut child = command.spawn().map_err(|e| format!("can't run cargo: {e}"))?;
     let start = Instant::now();

@@ -11,7 +11,7 @@ use std::ops::{Add, BitAnd, BitOr, Neg, Not, Sub};
 use std::panic::Location;
 use std::sync::Arc;
 
-/// A number in a field: written out for now, a formula of time and parameters later.
+/// A number in a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Value {
@@ -205,6 +205,28 @@ impl Field {
             _ => vec![a, b],
         };
         Self::with_origin(shape, [], children, None, origin)
+    }
+}
+
+/// Two trees are equal if they call the same functions with the same numbers, formulas and materials, wherever they were written.
+impl PartialEq for Field {
+    fn eq(&self, other: &Self) -> bool {
+        let mut pending = vec![(self, other)];
+        while let Some((one, other)) = pending.pop() {
+            let (a, b) = (one.node(), other.node());
+            let is_same = std::ptr::eq(a.shape, b.shape)
+                && a.args == b.args
+                && a.material == b.material
+                && a.formulas == b.formulas
+                && a.children.len() == b.children.len();
+            if !is_same {
+                return false;
+            }
+            // What is shared need not be looked through.
+            let children = a.children.iter().zip(&b.children);
+            pending.extend(children.filter(|(one, other)| !Arc::ptr_eq(&one.0, &other.0)));
+        }
+        true
     }
 }
 

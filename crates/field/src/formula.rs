@@ -13,12 +13,18 @@
 //! - a number may stand before a name or parenthesis without `*`: `2x`, `3(x + 1)`, `45 deg`. Nothing else may, and
 //!   neither `1/2x` nor `x^2y`, which people read in two ways;
 //! - functions, see [`functions`];
-//! - definitions before the formula, each with a `;` after it: `r = hypot(x, y); hypot(r - 2, z) - 1`.
+//! - definitions before the formula, each with a `;` after it: `r = hypot(x, y); hypot(r - 2, z) - 1`;
+//! - vectors of two or three numbers: `p` is (x, y, z), `vec(a, b)` and `vec(a, b, c)` make others, `v.x` and `v.xy` are parts of
+//!   them. Operators and functions of numbers work on each part by itself (a number beside a vector counts for all of them),
+//!   `length`, `dot`, `cross`, `normalize` and `distance` on whole vectors: `q = abs(p) - vec(1, 2, 3); length(max(q, 0)) - 0.1`.
+//!   The formula itself is a number;
+//! - names that are given values from outside, see [`Formula::parse_with`].
 //!
 //! A formula has no value where a part of it has none, for instance the root of a negative number.
 
 use crate::scalar::Scalar;
 use crate::vector::Vec3;
+use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
@@ -31,10 +37,11 @@ mod polynomial;
 mod print;
 mod rules;
 mod token;
+mod value;
 mod vm;
 
 pub use error::FormulaError;
-pub use names::{Function, functions};
+pub use names::{Function, functions, name_fault};
 pub use parse::{MOST_NESTED, MOST_TERMS};
 pub use polynomial::{HIGHEST_DEGREE, Monomial, Polynomial};
 pub use vm::VmError;
@@ -49,6 +56,8 @@ pub struct Formula(Arc<Inner>);
 struct Inner {
     terms: Vec<Term>,
     text: String,
+    /// The names in it that were given values.
+    names: Vec<String>,
 }
 
 /// The place of a term in its formula.
@@ -206,16 +215,47 @@ impl Formula {
     /// # Errors
     /// The first mistake in it.
     pub fn parse(text: &str) -> Result<Self, FormulaError> {
+        Self::parse_with(text, &BTreeMap::new())
+    }
+
+    /// What `text` means where some names have these finite values; [`name_fault`] says which names can have one.
+    ///
+    /// ```
+    /// use freikugel_field::Formula;
+    ///
+    /// let given = [("radius".to_owned(), 2.0)].into();
+    /// let ball = Formula::parse_with("length(p) - radius", &given)?;
+    /// assert_eq!(ball.value([3.0, 0.0, 4.0]), 3.0);
+    /// assert_eq!(ball.names(), ["radius"]);
+    /// # Ok::<(), freikugel_field::formula::FormulaError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The first mistake in it.
+    pub fn parse_with(text: &str, given: &BTreeMap<String, f64>) -> Result<Self, FormulaError> {
         let mut builder = Builder::default();
-        let result = parse::parse(text, &mut builder)?;
-        Ok(Self(Arc::new(Inner { terms: builder.finish(result), text: text.to_string() })))
+        let (result, names) = parse::parse(text, given, &mut builder)?;
+        Ok(Self(Arc::new(Inner { terms: builder.finish(result), text: text.to_string(), names })))
+    }
+
+    /// The number that a formula without coordinates is.
+    pub fn constant(&self) -> Option<f64> {
+        match *self.terms() {
+            [Term::Literal(number)] => Some(number),
+            _ => None,
+        }
+    }
+
+    /// The names in its text that were given values, in order.
+    pub fn names(&self) -> &[String] {
+        &self.0.names
     }
 
     /// The formula for a term of `builder`, with its print as the text.
     fn build(builder: &Builder, result: TermId) -> Self {
         let terms = builder.finish(result);
         let text = print::print(&terms);
-        Self(Arc::new(Inner { terms, text }))
+        Self(Arc::new(Inner { terms, text, names: Vec::new() }))
     }
 
     /// The coordinate 0, 1 or 2 itself.

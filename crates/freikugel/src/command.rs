@@ -8,6 +8,7 @@ mod check;
 mod compare;
 mod formula;
 mod frame;
+mod given;
 mod graphics;
 mod help;
 mod info;
@@ -82,6 +83,8 @@ struct SceneFiles {
     /// The scene files, or - for standard input; or models, whose files are called `.vm`.
     #[arg(required = true)]
     scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    given: given::Given,
 }
 
 /// How a command ends when it does not succeed.
@@ -93,6 +96,8 @@ pub(crate) enum Failure {
     Usage(String),
     /// The user stopped it.
     Interrupted,
+    /// The user stopped it, and part of the work is kept; says so.
+    Paused(String),
 }
 
 impl Failure {
@@ -102,6 +107,7 @@ impl Failure {
             Self::Input(message) => (message, 1),
             Self::Usage(message) => (message, 2),
             Self::Interrupted => ("stopped; nothing was written".to_owned(), 130),
+            Self::Paused(message) => (message, 130),
         };
         if !message.is_empty() {
             eprintln!("freikugel: {message}");
@@ -131,7 +137,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Shader(arguments) => shader::run(&arguments),
-        Command::Check(files) => check::run(&files.scenes),
+        Command::Check(files) => check::run(&files.scenes, &files.given.inputs()),
         Command::Info(arguments) => info::run(&arguments),
         Command::Formula(arguments) => formula::run(&arguments),
         Command::Schema => {

@@ -36,6 +36,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod animation;
 pub mod files;
 pub mod model;
 

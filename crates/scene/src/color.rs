@@ -1,7 +1,7 @@
 //! Colours: linear Rec. 709 inside, sRGB where people write them.
 
 use crate::Argument;
-use crate::notation::{Notation, tidy_f32};
+use crate::notation::{Notation, number_schema_with, tidy_f32};
 use crate::reader::{Reader, span};
 use crate::schema::Definitions;
 use crate::suggest::quote;
@@ -89,7 +89,7 @@ impl Notation<Rgb> for ColorNotation {
                 "description": "A colour: \"#rrggbb\" or \"#rgb\" in sRGB, or a list of linear red, green and blue.",
                 "anyOf": [
                     { "type": "string", "pattern": "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$" },
-                    { "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": 3, "maxItems": 3 },
+                    { "type": "array", "items": number_schema_with(json!({ "minimum": 0 })), "minItems": 3, "maxItems": 3 },
                 ],
             })
         })

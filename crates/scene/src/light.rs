@@ -248,7 +248,7 @@ impl Notation<Falloff> for FalloffNotation {
     }
 
     fn schema(&self, _definitions: &mut Definitions) -> Json {
-        let coefficient = json!({ "type": "number", "minimum": 0 });
+        let coefficient = notation::number_schema_with(json!({ "minimum": 0 }));
         json!({
             "anyOf": [
                 { "enum": FALLOFFS.map(|(name, _)| name) },

@@ -4,11 +4,13 @@
 //! type it is for, and is named once, in the declaration of the record that uses it (see [`crate::record`]).
 
 mod choice;
+mod formula;
 mod number;
 mod vector;
 
 pub(crate) use choice::{Choice, ChoiceNotation, choice, index_of};
-pub(crate) use number::{Flag, Number, tidy, tidy_degrees, tidy_f32};
+pub(crate) use formula::{FormulaNotation, computed};
+pub(crate) use number::{Flag, Number, count_schema, number_schema, number_schema_with, tidy, tidy_degrees, tidy_f32};
 pub(crate) use vector::{DIRECTION, POINT, direction_schema, named_direction, numbers_schema};
 
 use crate::reader::Reader;
@@ -104,6 +106,28 @@ impl<T, N: Notation<T>> Notation<Vec<T>> for List<N> {
 
     fn schema(&self, definitions: &mut Definitions) -> Json {
         json!({ "type": "array", "items": self.0.schema(definitions) })
+    }
+}
+
+/// A text for people, kept as it is.
+#[derive(Debug)]
+pub(crate) struct Words;
+
+impl Notation<String> for Words {
+    fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<String> {
+        let Written::StringLit(text) = value else {
+            reader.mistyped(value, "a text", None);
+            return None;
+        };
+        Some(text.value.to_string())
+    }
+
+    fn write(&self, value: &String) -> Option<Json> {
+        (!value.is_empty()).then(|| json!(value))
+    }
+
+    fn schema(&self, _definitions: &mut Definitions) -> Json {
+        json!({ "type": "string" })
     }
 }
 

@@ -14,7 +14,7 @@ use std::collections::{HashMap, HashSet};
 
 record! {
     /// A shape with a name and a material.
-    #[derive(Clone, Debug)]
+    #[derive(Clone, Debug, PartialEq)]
     pub struct Object = "object" {
         /// What it is called; no two objects share a name. Objects without one are numbered.
         pub name: String = String::new(), optional NameNotation;

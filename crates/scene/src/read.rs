@@ -2,13 +2,16 @@
 
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::files::{Files, NoFiles};
+use crate::named::are_too_large;
+use crate::names::{Inputs, TIME};
 use crate::notation::Notation;
+use crate::parameter::report_unused;
 use crate::reader::{Reader, span};
 use crate::record::Record;
 use crate::scene::Scene;
 use crate::schema::Definitions;
 use crate::syntax::{Written, parse};
-use freikugel_field::{Origin, analyse_together};
+use freikugel_field::{Origin, analyse, analyse_together};
 use serde_json::{Value as Json, json};
 
 /// What reading a scene file gave.
@@ -20,6 +23,8 @@ pub struct Reading {
     pub diagnostics: Vec<Diagnostic>,
     /// The names of the files that were read for it.
     pub files: Vec<String>,
+    /// Whether the time stands in one of its formulas.
+    pub uses_time: bool,
 }
 
 impl Reading {
@@ -53,9 +58,14 @@ pub fn read(text: &str) -> Reading {
 
 /// Reads a scene file that may name other files: fonts, pictures, lists of points. See [`read()`].
 pub fn read_with(text: &str, files: impl Files + 'static) -> Reading {
+    read_at(text, files, &Inputs::default())
+}
+
+/// Reads a scene file with other values for its parameters, and at a time. See [`read()`].
+pub fn read_at(text: &str, files: impl Files + 'static, inputs: &Inputs) -> Reading {
     // Some editors begin a file with a byte order mark, which is no part of the JSON.
     let body = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut reading = read_body(body, Reader::new(files));
+    let mut reading = read_body(body, Reader::new(files, inputs));
     for diagnostic in &mut reading.diagnostics {
         let shift = text.len() - body.len();
         diagnostic.span = diagnostic.span.start + shift..diagnostic.span.end + shift;
@@ -68,17 +78,26 @@ pub const MOST_NESTED: usize = crate::syntax::DEEPEST;
 
 fn read_body(text: &str, mut reader: Reader) -> Reading {
     let Some(root) = parse(text, &mut reader.diagnostics) else {
-        return Reading { scene: None, diagnostics: reader.diagnostics, files: Vec::new() };
+        return nothing(reader.diagnostics);
     };
     if let Some(newer) = newer_version(&root) {
-        return Reading { scene: None, diagnostics: vec![newer], files: Vec::new() };
+        return nothing(vec![newer]);
     }
     let scene = reader.labelled("the scene".into(), |reader| Scene::read(reader, &root));
     analyse_roots(&mut reader);
+    report_unused(&mut reader, &root);
+    let uses_time = reader.names.is_used(TIME);
     let mut diagnostics = std::mem::take(&mut reader.diagnostics);
     diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
+    // A shape with a name is looked at wherever it is used.
+    diagnostics.dedup();
     let is_sound = diagnostics.iter().all(|diagnostic| diagnostic.severity != Severity::Error);
-    Reading { scene: scene.filter(|_| is_sound), diagnostics, files: reader.into_files() }
+    Reading { scene: scene.filter(|_| is_sound), diagnostics, files: reader.into_files(), uses_time }
+}
+
+/// What reading gives where there is nothing to read.
+fn nothing(diagnostics: Vec<Diagnostic>) -> Reading {
+    Reading { scene: None, diagnostics, files: Vec::new(), uses_time: false }
 }
 
 /// What to say of a file for a newer program: nothing else in it can be judged.
@@ -95,7 +114,13 @@ fn newer_version(root: &Written<'_>) -> Option<Diagnostic> {
 
 /// Reports what the fields say of themselves, in terms of the document.
 fn analyse_roots(reader: &mut Reader) {
-    for (_, faults) in analyse_together(&std::mem::take(&mut reader.roots)) {
+    let (roots, named) = (std::mem::take(&mut reader.roots), std::mem::take(&mut reader.named));
+    if are_too_large(reader, &roots) {
+        return;
+    }
+    let alone = named.iter().map(|field| analyse(field).1);
+    let together = analyse_together(&roots).into_iter().map(|(_, faults)| faults);
+    for faults in alone.chain(together) {
         for fault in faults {
             let Origin::Document(index) = fault.origin else {
                 continue;
@@ -115,6 +140,10 @@ pub(crate) struct VersionNotation;
 
 impl Notation<()> for VersionNotation {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<()> {
+        let Written::NumberLit(_) = value else {
+            reader.mistyped(value, "a number", None);
+            return None;
+        };
         let version = reader.number(value)?;
         if version != f64::from(VERSION) {
             reader.error(span(value), format!("`version` must be {VERSION}"), None);

@@ -4,10 +4,11 @@
 
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::files::Files;
-use crate::notation::Notation;
+use crate::names::{Inputs, Names};
+use crate::notation::{Notation, computed};
 use crate::suggest::{closest, listed, quote};
 use crate::syntax::Written;
-use freikugel_field::Field;
+use freikugel_field::{Field, Origin};
 use jsonc_parser::ast::ObjectProp;
 use jsonc_parser::common::Ranged;
 use std::collections::{BTreeMap, HashMap};
@@ -22,12 +23,18 @@ pub(crate) struct Reader {
     /// The contents of those that were read, by their names.
     files_read: BTreeMap<String, Arc<[u8]>>,
     pub(crate) diagnostics: Vec<Diagnostic>,
+    /// The names that formulas may use.
+    pub(crate) names: Names,
     /// The materials by name; `None` if nothing sound is known about them.
     pub(crate) materials: Option<HashMap<String, u32>>,
+    /// The shapes by name; `None` for those that have a fault.
+    pub(crate) shapes: BTreeMap<String, Option<Field>>,
     /// The nodes of all fields, in the order of their [`freikugel_field::Origin::Document`] numbers.
     pub(crate) nodes: Vec<NodePlace>,
     /// The fields to analyse: of each object, or the sound parts of one that has faults.
     pub(crate) roots: Vec<Field>,
+    /// The shapes with names, to analyse each by itself.
+    pub(crate) named: Vec<Field>,
     /// What the value now read is called, as it stands in a sentence.
     label: String,
     errors: usize,
@@ -44,14 +51,17 @@ pub(crate) struct NodePlace {
 
 impl Reader {
     /// For a document with these files, and without materials, until some are read.
-    pub(crate) fn new(files: impl Files + 'static) -> Self {
+    pub(crate) fn new(files: impl Files + 'static, inputs: &Inputs) -> Self {
         Self {
+            names: Names::new(inputs),
             files: Box::new(files),
             files_read: BTreeMap::new(),
             diagnostics: Vec::new(),
             materials: Some(HashMap::new()),
+            shapes: BTreeMap::new(),
             nodes: Vec::new(),
             roots: Vec::new(),
+            named: Vec::new(),
             label: String::new(),
             errors: 0,
         }
@@ -73,6 +83,14 @@ impl Reader {
     /// The names of the files that were read.
     pub(crate) fn into_files(self) -> Vec<String> {
         self.files_read.into_keys().collect()
+    }
+
+    /// Where the name of a node was written.
+    pub(crate) fn place(&self, origin: Origin) -> Option<Range<usize>> {
+        let Origin::Document(index) = origin else {
+            return None;
+        };
+        Some(self.nodes.get(index as usize)?.name.clone())
     }
 
     pub(crate) fn report(
@@ -133,11 +151,15 @@ impl Reader {
         None
     }
 
-    /// A finite number.
+    /// A finite number, or a formula for one.
     pub(crate) fn number(&mut self, value: &Written<'_>) -> Option<f64> {
-        let Written::NumberLit(literal) = value else {
-            self.mistyped(value, "a number", None);
-            return None;
+        let literal = match value {
+            Written::NumberLit(literal) => literal,
+            Written::StringLit(_) => return computed(self, value),
+            _ => {
+                self.mistyped(value, "a number", None);
+                return None;
+            }
         };
         // Where the parser lets other numbers than JSON's pass, it has reported them.
         let number: f64 = literal.value.parse().ok().filter(|_| !literal.value.contains(['N', 'I']))?;

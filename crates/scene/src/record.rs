@@ -233,7 +233,7 @@ mod tests {
     /// A record survives being written and read.
     fn survives<R: Record + PartialEq + Debug>(record: &R) {
         let text = record.write().to_string();
-        let mut reader = Reader::new(NoFiles);
+        let mut reader = Reader::new(NoFiles, &Inputs::default());
         let value = parse(&text, &mut reader.diagnostics).expect("JSON");
         let read = R::read(&mut reader, &value);
         assert!(reader.diagnostics.is_empty(), "{:?}\n{text}", reader.diagnostics);

@@ -3,10 +3,12 @@
 use crate::camera::Camera;
 use crate::light::{Light, LightNotation};
 use crate::material::Material;
+use crate::named::NamedShapesNotation;
 use crate::notation::{List, Maybe, Remark};
 use crate::object::{MaterialsNotation, Object, ObjectsNotation};
+use crate::parameter::{Parameter, ParametersNotation};
 use crate::read::VersionNotation;
-use crate::record::{RecordNotation, record};
+use crate::record::{Record, RecordNotation, record};
 use crate::settings::{Picture, Tracer};
 use crate::surroundings::{Ambient, AmbientNotation, Background, BackgroundNotation, Occlusion, OcclusionNotation};
 use freikugel_field::{Dimension, Field, MaterialId, analyse};
@@ -16,6 +18,8 @@ record! {
     /// A scene: objects, what they are made of, the light on them, and how the picture is taken.
     #[derive(Clone, Debug)]
     pub struct Scene = "scene" {
+        /// Numbers with names, which formulas all over the scene may use.
+        pub parameters: Vec<(String, Parameter)> = Vec::new(), optional ParametersNotation;
         /// Where the picture is taken from; if missing, so that all objects are seen, from the front right and above.
         pub camera: Option<Camera> = None, optional Maybe(RecordNotation);
         /// The lights; if missing, three suns that show shapes well.
@@ -28,6 +32,8 @@ record! {
         pub background: Background = Background::default(), optional BackgroundNotation;
         /// The materials by their names.
         pub materials: Vec<(String, Material)> = Vec::new(), optional MaterialsNotation;
+        /// Shapes by their names, which others use: `{ "use": "name" }`.
+        pub shapes: Vec<(String, Field)> = Vec::new(), optional NamedShapesNotation;
         /// The objects: shapes with their names and materials.
         pub objects: Vec<Object> = Vec::new(), required ObjectsNotation;
         /// How rays find surfaces, and the limits of that.
@@ -68,6 +74,18 @@ impl Scene {
     pub fn is_plane(&self) -> bool {
         let mut analyses = self.objects.iter().filter_map(|object| analyse(&object.shape).0);
         !self.objects.is_empty() && analyses.all(|analysis| analysis.contract.dimension == Dimension::Plane)
+    }
+
+    /// Whether another scene looks the same as this one but for where it is seen from. What its numbers were computed from does not matter.
+    pub fn differs_only_in_camera(&self, other: &Self) -> bool {
+        let rest = |scene: &Self| {
+            let mut json = scene.write();
+            for key in ["camera", "parameters"] {
+                json.as_object_mut().map(|object| object.remove(key));
+            }
+            json
+        };
+        self.objects == other.objects && rest(self) == rest(other)
     }
 
     /// A scene without objects, in the light of [`Light::rig`].

@@ -4,12 +4,11 @@
 //! on stand under `shape` or `shapes`. A function of many shapes that needs no parameters may have the list for a value.
 //! Which functions there are, nothing here knows but [`freikugel_field::shapes::ALL`].
 
-mod formula;
 mod param;
 
-use self::formula::FormulaNotation;
 use crate::files::FileNotation;
-use crate::notation::Notation;
+use crate::named::{USE, used};
+use crate::notation::{FormulaNotation, Notation};
 use crate::object::MaterialNotation;
 use crate::reader::{Entries, NodePlace, Reader, name_span, span};
 use crate::schema::{Definitions, Need, ObjectSchema};
@@ -38,7 +37,7 @@ fn by_name(name: &str) -> Option<&'static Shape> {
 
 impl Notation<Field> for ShapeNotation {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
-        let field = node(reader, value)?;
+        let field = read_shape(reader, value)?;
         reader.roots.push(field.clone());
         Some(field)
     }
@@ -49,10 +48,12 @@ impl Notation<Field> for ShapeNotation {
 
     fn schema(&self, definitions: &mut Definitions) -> Json {
         definitions.define("shape", |definitions| {
-            let functions: serde_json::Map<_, _> = shapes::ALL
+            let mut functions: serde_json::Map<_, _> = shapes::ALL
                 .iter()
                 .map(|shape| (shape.about.name.to_string(), function_schema(shape, definitions)))
                 .collect();
+            let used = json!({ "type": "string", "description": "The name of a shape under `shapes`." });
+            functions.insert(USE.into(), used);
             json!({
                 "description": "A shape: an object with one key, its name, and its parameters as the value.",
                 "type": "object",
@@ -66,20 +67,20 @@ impl Notation<Field> for ShapeNotation {
 }
 
 /// A shape and all within it. If it can't be read, the sound parts of it become roots of their own.
-fn node(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
+pub(crate) fn read_shape(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
     let Written::Object(object) = value else {
         reader.mistyped(value, "a shape", Some(for_instance(&shapes::SPHERE)));
         return None;
     };
-    let mut found: Option<(&'static Shape, &ObjectProp<'_>)> = None;
+    let mut found: Option<(Callee, &ObjectProp<'_>)> = None;
     let mut strangers = Vec::new();
     let mut is_alone = true;
     for prop in &object.properties {
         let key = prop.name.as_str();
-        match (by_name(key), found) {
-            (Some(shape), None) => found = Some((shape, prop)),
+        match (Callee::by_name(key), found) {
+            (Some(callee), None) => found = Some((callee, prop)),
             (Some(_), Some((first, _))) => {
-                let message = format!("{} stands in the same object as `{}`", quote(key), first.about.name);
+                let message = format!("{} stands in the same object as `{}`", quote(key), first.name());
                 reader.error(name_span(prop), message, Some("give each shape an object of its own".into()));
                 is_alone = false;
             }
@@ -87,15 +88,19 @@ fn node(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
         }
     }
     for prop in &strangers {
-        stranger(reader, prop, found.map(|(shape, _)| shape));
+        stranger(reader, prop, found.map(|(callee, _)| callee.name()));
     }
     if object.properties.is_empty() {
         reader.error(span(value), "a shape is missing here", Some(for_instance(&shapes::SPHERE)));
     }
-    let (shape, prop) = found?;
-    let index = reader.nodes.len();
-    reader.nodes.push(NodePlace { name: name_span(prop), params: vec![None; shape.about.params.len()] });
-    let field = reader.labelled(quote(shape.about.name), |reader| call(reader, shape, index, &prop.value));
+    let field = match found? {
+        (Callee::Use, prop) => used(reader, &prop.value),
+        (Callee::Shape(shape), prop) => {
+            let index = reader.nodes.len();
+            reader.nodes.push(NodePlace { name: name_span(prop), params: vec![None; shape.about.params.len()] });
+            reader.labelled(quote(shape.about.name), |reader| call(reader, shape, index, &prop.value))
+        }
+    };
     if is_alone && strangers.is_empty() {
         return field;
     }
@@ -103,11 +108,33 @@ fn node(reader: &mut Reader, value: &Written<'_>) -> Option<Field> {
     None
 }
 
+/// What the key of a shape says.
+#[derive(Clone, Copy)]
+enum Callee {
+    /// A function.
+    Shape(&'static Shape),
+    /// That a shape with a name is meant.
+    Use,
+}
+
+impl Callee {
+    fn by_name(name: &str) -> Option<Self> {
+        if name == USE { Some(Self::Use) } else { by_name(name).map(Self::Shape) }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Shape(shape) => shape.about.name,
+            Self::Use => USE,
+        }
+    }
+}
+
 /// Reports a key that names no shape where one should.
-fn stranger(reader: &mut Reader, prop: &ObjectProp<'_>, beside: Option<&Shape>) {
+fn stranger(reader: &mut Reader, prop: &ObjectProp<'_>, beside: Option<&str>) {
     let (key, place) = (prop.name.as_str(), name_span(prop));
-    if let Some(shape) = beside {
-        let message = format!("{} can't stand beside `{}`", quote(key), shape.about.name);
+    if let Some(name) = beside {
+        let message = format!("{} can't stand beside `{name}`", quote(key));
         let hint = "what belongs to a shape goes into its own braces";
         return reader.error(place, message, Some(hint.into()));
     }
@@ -177,7 +204,7 @@ fn call(reader: &mut Reader, shape: &'static Shape, index: usize, value: &Writte
         Arity::None => Vec::new(),
         Arity::One => {
             let child = entries.require(reader, CHILD, "the shape it works on");
-            vec![child.and_then(|child| reader.labelled(quote(CHILD), |reader| node(reader, child)))]
+            vec![child.and_then(|child| reader.labelled(quote(CHILD), |reader| read_shape(reader, child)))]
         }
         Arity::Many => match entries.require(reader, CHILDREN, "the shapes it works on") {
             Some(value) => reader.labelled(quote(CHILDREN), |reader| list(reader, value)),
@@ -244,7 +271,7 @@ fn list(reader: &mut Reader, value: &Written<'_>) -> Vec<Option<Field>> {
     let outer = reader.label().to_string();
     let labels = (1..).map(|number| format!("entry {number} of {outer}"));
     let elements = array.elements.iter().zip(labels);
-    elements.map(|(element, label)| reader.labelled(label, |reader| node(reader, element))).collect()
+    elements.map(|(element, label)| reader.labelled(label, |reader| read_shape(reader, element))).collect()
 }
 
 /// The node, if all of it could be read; otherwise its sound children become roots.

@@ -141,7 +141,7 @@ fn shapes() {
         ("list_without_parameters", r#"{ "smooth_union": [ { "sphere": { "radius": 0 } } ] }"#),
         (
             "size",
-            r#"{ "union": [ { "box": { "size": [1, 2] } }, { "box": { "size": [1, -2, 1] } }, { "box": { "size": "1" } } ] }"#,
+            r#"{ "union": [ { "box": { "size": [1, 2] } }, { "box": { "size": [1, -2, 1] } }, { "box": { "size": true } } ] }"#,
         ),
         (
             "degenerate_axis",
@@ -154,7 +154,7 @@ fn shapes() {
         (
             "one_mistake_each",
             r#"{ "difference": [
-    { "translate": { "by": [0, "1", 0], "shape": { "sphere": { "radius": -1 } } } },
+    { "translate": { "by": [0, true, 0], "shape": { "sphere": { "radius": -1 } } } },
     { "scale": { "factor": 0, "shape": { "spher": { "radius": 1 } } } },
     { "torus": { "major": 1, "minor": 0.25, "axis": "z", "axis": "x" } } ] }"#,
         ),
@@ -187,7 +187,7 @@ fn knots_and_nets() {
         (spline("[0, 0, 0, 1]"), "`b_spline`: a spline of degree 1 has no knot more than 2 times", r#""b_spline""#),
         (spline("[0, 2, 1, 3]"), "`knots` must not fall, but entry 3 is 1 after 2", "[0, 2, 1, 3]"),
         (spline("\"odd\""), "`knots` can't be `odd`", r#""odd""#),
-        (spline("[0, \"1\", 2, 3]"), "entry 2 of `knots`", r#""1""#),
+        (spline("[0, true, 2, 3]"), "entry 2 of `knots`", "true"),
         (
             patch("[[[0, 0, 0], [1, 0, 0]], [[0, 1, 0]]]"),
             "row 2 has 1, and the first one 2",

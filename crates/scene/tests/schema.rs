@@ -7,7 +7,7 @@ use serde_json::{Map, Value as Json, json};
 use std::sync::LazyLock;
 
 /// Scenes that use every part of the format.
-const SCENES: [&str; 5] = [
+const SCENES: [&str; 6] = [
     r#"{ "objects": [ { "shape": { "sphere": { "radius": 1 } } } ] }"#,
     r##"{ "version": 1, "$schema": "scene.schema.json",
       "camera": { "eye": [4, -6, 3], "target": [0, 0, 1], "up": "z", "fov": 40 },
@@ -38,6 +38,10 @@ const SCENES: [&str; 5] = [
       { "shape": { "warp": { "x": "x + 0.1*sin(3z)", "z": "z / 2", "within": { "sphere": 2 }, "shape":
         { "twist": { "rate": 60, "axis": "x", "shape": { "displace": { "by": "sin(9y) / 20", "shape":
           { "sphere": { "radius": 1 } } } } } } } } } ] }"#,
+    r#"{ "parameters": { "size": 1, "turns": { "value": "2 * abs(size)", "from": 0, "to": 9, "unit": "turns", "about": "how often" } },
+      "shapes": { "part": { "box": { "size": ["2/2", 2, "t + 1"], "round": "1 / 8" } }, "two": { "union": [ { "use": "part" } ] } },
+      "objects": [ { "shape": { "twist": { "rate": "360 turns", "shape": { "use": "two" } } } } ],
+      "camera": { "eye": [4, "-6 cos(t) - size", 3], "fov": "40" }, "picture": { "width": "100" } }"#,
 ];
 
 /// The part of JSON Schema that scenes need. Anything else in a schema panics, so that nothing is passed over.
@@ -69,7 +73,7 @@ impl Validator {
         match keyword {
             "$schema" | "$defs" | "title" | "description" | "default" => true,
             "$ref" => self.matches(self.resolve(&json!({ "$ref": wanted })), value),
-            "type" => match wanted.as_str().expect("one type") {
+            "type" => types(wanted).into_iter().any(|wanted| match wanted {
                 "object" => value.is_object(),
                 "array" => value.is_array(),
                 "string" => value.is_string(),
@@ -77,7 +81,7 @@ impl Validator {
                 "number" => value.is_number(),
                 "integer" => value.as_f64().is_some_and(|number| number.fract() == 0.0),
                 other => panic!("type {other}"),
-            },
+            }),
             "minimum" => value.as_f64().is_none_or(|number| number >= bound()),
             "exclusiveMinimum" => value.as_f64().is_none_or(|number| number > bound()),
             "maximum" => value.as_f64().is_none_or(|number| number <= bound()),
@@ -129,7 +133,7 @@ impl Validator {
             (Some((_, schema)), _) => return self.least(schema),
             _ => {}
         }
-        match schema["type"].as_str().expect("a type") {
+        match types(&schema["type"])[0] {
             "boolean" => json!(false),
             "string" if schema.get("pattern").is_some() => json!("#abc"),
             "string" => json!("clay"),
@@ -188,7 +192,10 @@ impl Validator {
             return self.samples(values, depth).into_iter().map(|value| json!({ "clay": value })).collect();
         }
         let Some(properties) = schema.get("properties").and_then(Json::as_object) else {
-            return vec![self.least(schema)];
+            let least = self.least(schema);
+            // A number may be written as a formula.
+            let written = schema.get("type").filter(|kinds| types(kinds).len() > 1).map(|_| json!(least.to_string()));
+            return [least].into_iter().chain(written).collect();
         };
         let is_variant = schema.get("maxProperties").is_some();
         let least = if is_variant { json!({}) } else { self.least(schema) };
@@ -201,6 +208,14 @@ impl Validator {
             }
         }
         samples
+    }
+}
+
+/// The types that a schema names, one or several.
+fn types(wanted: &Json) -> Vec<&str> {
+    match wanted.as_array() {
+        Some(several) => several.iter().filter_map(Json::as_str).collect(),
+        None => vec![wanted.as_str().expect("a type")],
     }
 }
 

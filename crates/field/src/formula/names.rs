@@ -2,6 +2,7 @@
 
 use super::TermId;
 use super::builder::Builder;
+use super::value::{Value, for_each_part};
 use super::{Binary, Unary};
 use std::f64::consts;
 use std::ops::RangeInclusive;
@@ -14,7 +15,16 @@ pub struct Function {
     /// What it is, if the name does not say it.
     pub about: &'static str,
     count: RangeInclusive<usize>,
-    build: fn(&mut Builder, &[TermId]) -> TermId,
+    build: Build,
+}
+
+/// What a function makes of its arguments.
+#[derive(Debug)]
+enum Build {
+    /// A number of numbers; of vectors, their parts by themselves.
+    Parts(fn(&mut Builder, &[TermId]) -> TermId),
+    /// Something else of vectors, or a fault, as the rest of a sentence that starts with the function's name.
+    Vectors(fn(&mut Builder, &[Value]) -> Result<Value, String>),
 }
 
 impl Function {
@@ -39,8 +49,15 @@ impl Function {
     }
 
     /// A call with as many arguments as it takes.
-    pub(super) fn call(&self, builder: &mut Builder, arguments: &[TermId]) -> TermId {
-        (self.build)(builder, arguments)
+    ///
+    /// # Errors
+    /// If these can't be its arguments: why, as the rest of a sentence that starts with its name.
+    pub(super) fn call(&self, builder: &mut Builder, arguments: &[Value]) -> Result<Value, String> {
+        match self.build {
+            Build::Parts(build) => for_each_part(arguments, |parts| build(builder, parts))
+                .map_err(|[one, other]| format!("can't take {} and {}", one.kind(), other.kind())),
+            Build::Vectors(build) => build(builder, arguments),
+        }
     }
 }
 
@@ -53,7 +70,13 @@ const ANY: RangeInclusive<usize> = 2..=usize::MAX;
 
 macro_rules! function {
     ($signature:literal, $about:literal, $count:expr, $build:expr) => {
-        Function { signature: $signature, about: $about, count: $count, build: $build }
+        Function { signature: $signature, about: $about, count: $count, build: Build::Parts($build) }
+    };
+}
+
+macro_rules! of_vectors {
+    ($signature:literal, $about:literal, $count:expr, $build:expr) => {
+        Function { signature: $signature, about: $about, count: $count, build: Build::Vectors($build) }
     };
 }
 
@@ -77,8 +100,7 @@ static FUNCTIONS: &[Function] = &[
     function!("pow(a, b)", "the same as a^b", 2..=2, |b, args| b.binary(Binary::Pow, args[0], args[1])),
     function!("sqrt(a)", "", 1..=1, |b, args| b.unary(Unary::Sqrt, args[0])),
     function!("cbrt(a)", "the cube root, negative for a negative a", 1..=1, cbrt),
-    function!("hypot(a, b)", "sqrt(a^2 + b^2), or of three squares", 2..=3, length),
-    function!("length(a, b, c)", "the same as hypot", 2..=3, length),
+    function!("hypot(a, b)", "sqrt(a^2 + b^2), or of three squares", 2..=3, hypot),
     function!("abs(a)", "", 1..=1, |b, args| b.unary(Unary::Abs, args[0])),
     function!("sign(a)", "-1, 0 or 1", 1..=1, |b, args| sign(b, args[0])),
     function!("floor(a)", "", 1..=1, |b, args| b.unary(Unary::Floor, args[0])),
@@ -95,6 +117,12 @@ static FUNCTIONS: &[Function] = &[
     function!("less(a, b)", "1 where a < b, otherwise 0", 2..=2, |b, args| b.binary(Binary::Less, args[0], args[1])),
     function!("step(edge, a)", "0 where a < edge, otherwise 1", 2..=2, step),
     function!("smoothstep(low, high, a)", "0 up to low, 1 from high, smooth between", 3..=3, smoothstep),
+    of_vectors!("vec(a, b, c)", "the vector of two or three numbers, or of a vector's and another", 1..=3, vector),
+    of_vectors!("length(v)", "the length of a vector, or of that of two or three numbers", 1..=3, length),
+    of_vectors!("dot(v, w)", "the sum of the products of the parts of two vectors", 2..=2, dot),
+    of_vectors!("cross(v, w)", "the vector at a right angle to two vectors of 3", 2..=2, cross),
+    of_vectors!("normalize(v)", "the vector of length 1 in the same direction", 1..=1, normalize),
+    of_vectors!("distance(v, w)", "the length of the difference of two vectors", 2..=2, distance),
 ];
 
 /// The function of a name.
@@ -104,6 +132,24 @@ pub(super) fn function(name: &str) -> Option<&'static Function> {
 
 /// The names of the coordinates, in their order.
 pub(super) const COORDINATES: [&str; 3] = ["x", "y", "z"];
+
+/// The name of the vector of all coordinates.
+pub(super) const POINT: &str = "p";
+
+/// Why a name can't be given a value, as the rest of a sentence that starts with it; `None` if it can.
+pub fn name_fault(name: &str) -> Option<&'static str> {
+    let mut letters = name.chars();
+    let begins = letters.next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
+    if !begins || !letters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
+        return Some("is no name: names are letters, digits and _, and don't begin with a digit");
+    }
+    is_taken(name).then_some("has a meaning in formulas already")
+}
+
+/// Whether the language itself gives a name a meaning.
+pub(super) fn is_taken(name: &str) -> bool {
+    COORDINATES.contains(&name) || name == POINT || constant(name).is_some() || function(name).is_some()
+}
 
 /// The constants by name.
 pub(super) const CONSTANTS: [(&str, f64); 7] = [
@@ -137,7 +183,11 @@ pub(super) fn elsewhere(name: &str) -> Option<&'static str> {
         "sqr" | "square" => "write a^2",
         "if" | "select" => "less(a, b) is 1 where a < b and 0 elsewhere; mix(no, yes, less(a, b)) chooses",
         "r" | "rho" => "there are x, y and z; define it: r = hypot(x, y); ...",
-        "theta" | "phi" | "t" | "angle" => "there are x, y and z; define it: t = atan2(y, x); ...",
+        "theta" | "phi" | "angle" => "there are x, y and z; define it: phi = atan2(y, x); ...",
+        "t" | "time" => "the time is `t`, in scenes",
+        "pos" | "position" => "the point is `p`, its coordinates are x, y and z",
+        "vec2" | "vec3" | "float2" | "float3" => "write vec(a, b) or vec(a, b, c)",
+        "norm" | "mag" | "magnitude" => "write length(v)",
         _ => return None,
     })
 }
@@ -208,7 +258,8 @@ fn cbrt(b: &mut Builder, args: &[TermId]) -> TermId {
     b.binary(Binary::Mul, sign, root)
 }
 
-fn length(b: &mut Builder, args: &[TermId]) -> TermId {
+/// `sqrt` of the sum of squares.
+fn hypot(b: &mut Builder, args: &[TermId]) -> TermId {
     let squares: Vec<TermId> = args.iter().map(|&a| b.unary(Unary::Square, a)).collect();
     let sum = fold(b, Binary::Add, &squares);
     b.unary(Unary::Sqrt, sum)
@@ -268,4 +319,71 @@ fn smoothstep(b: &mut Builder, args: &[TermId]) -> TermId {
     let (square, twice) = (b.unary(Unary::Square, t), b.binary(Binary::Mul, t, two));
     let rest = b.binary(Binary::Sub, three, twice);
     b.binary(Binary::Mul, square, rest)
+}
+
+fn vector(_: &mut Builder, args: &[Value]) -> Result<Value, String> {
+    let parts: Vec<TermId> = args.iter().flat_map(Value::parts).copied().collect();
+    match parts.len() {
+        1 => Err("needs two numbers at least".into()),
+        _ => Value::of(&parts).ok_or_else(|| format!("can't have {} parts: vectors have 2 or 3", parts.len())),
+    }
+}
+
+fn length(b: &mut Builder, args: &[Value]) -> Result<Value, String> {
+    match args {
+        [vector] if vector.as_number().is_some() => Err("is that of a vector; write abs(a) for a number".into()),
+        [vector] => Ok(Value::number(hypot(b, vector.parts()))),
+        numbers => {
+            let numbers: Option<Vec<TermId>> = numbers.iter().map(Value::as_number).collect();
+            let numbers = numbers.ok_or("takes one vector, or two or three numbers")?;
+            Ok(Value::number(hypot(b, &numbers)))
+        }
+    }
+}
+
+/// The parts of two vectors that have as many.
+fn pair<'v>(args: &'v [Value]) -> Result<[&'v [TermId]; 2], String> {
+    match args {
+        [v, w] if v.parts().len() == w.parts().len() && v.as_number().is_none() => Ok([v.parts(), w.parts()]),
+        [v, w] => Err(format!("takes two vectors of the same length, not {} and {}", v.kind(), w.kind())),
+        _ => Err("takes two vectors".into()),
+    }
+}
+
+fn dot(b: &mut Builder, args: &[Value]) -> Result<Value, String> {
+    let [v, w] = pair(args)?;
+    let products: Vec<TermId> = v.iter().zip(w).map(|(&v, &w)| b.binary(Binary::Mul, v, w)).collect();
+    Ok(Value::number(fold(b, Binary::Add, &products)))
+}
+
+fn cross(b: &mut Builder, args: &[Value]) -> Result<Value, String> {
+    let [&[vx, vy, vz], &[wx, wy, wz]] = pair(args)? else {
+        return Err("takes two vectors of 3".into());
+    };
+    let mut minor = |[a, b_, c, d]: [TermId; 4]| {
+        let (left, right) = (b.binary(Binary::Mul, a, d), b.binary(Binary::Mul, b_, c));
+        b.binary(Binary::Sub, left, right)
+    };
+    let parts = [minor([vy, vz, wy, wz]), minor([vz, vx, wz, wx]), minor([vx, vy, wx, wy])];
+    Value::of(&parts).ok_or_else(String::new)
+}
+
+fn normalize(b: &mut Builder, args: &[Value]) -> Result<Value, String> {
+    if args[0].as_number().is_some() {
+        return Err("is that of a vector; write sign(a) for a number".into());
+    }
+    let length = hypot(b, args[0].parts());
+    divided(b, &args[0], length)
+}
+
+/// A vector by a number.
+fn divided(b: &mut Builder, vector: &Value, by: TermId) -> Result<Value, String> {
+    let parts: Vec<TermId> = vector.parts().iter().map(|&part| b.binary(Binary::Div, part, by)).collect();
+    Value::of(&parts).ok_or_else(String::new)
+}
+
+fn distance(b: &mut Builder, args: &[Value]) -> Result<Value, String> {
+    let [v, w] = pair(args)?;
+    let differences: Vec<TermId> = v.iter().zip(w).map(|(&v, &w)| b.binary(Binary::Sub, v, w)).collect();
+    Ok(Value::number(hypot(b, &differences)))
 }

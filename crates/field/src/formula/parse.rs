@@ -5,10 +5,11 @@
 
 use super::builder::Builder;
 use super::error::FormulaError;
-use super::names::{self, CONSTANTS, COORDINATES};
+use super::names::{self, CONSTANTS, COORDINATES, POINT};
 use super::token::{EQUATION_HINT, Kind, Lexer, Token};
+use super::value::{Value, for_each_part};
 use super::{Binary, TermId, Unary};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 
 /// How deep parentheses, calls and exponents may be nested.
@@ -17,13 +18,19 @@ pub const MOST_NESTED: usize = 200;
 /// The largest number of terms that reading may make; a formula has at most as many.
 pub const MOST_TERMS: usize = 1_000_000;
 
-/// The term that `text` means.
-pub(super) fn parse(text: &str, builder: &mut Builder) -> Result<TermId, FormulaError> {
+/// The term that `text` means, if the language's names and these have their values, and which of these it uses.
+pub(super) fn parse(
+    text: &str,
+    given: &BTreeMap<String, f64>,
+    builder: &mut Builder,
+) -> Result<(TermId, Vec<String>), FormulaError> {
     let mut lexer = Lexer::new(text);
     let token = lexer.next()?;
     let before = Token { kind: Kind::End, span: 0..0 };
-    let parser = Parser { text, lexer, token, before, builder, defined: HashMap::new(), depth: 0 };
-    parser.formula()
+    let (defined, used) = (HashMap::new(), BTreeSet::new());
+    let mut parser = Parser { text, lexer, token, before, builder, given, used, defined, depth: 0 };
+    let result = parser.formula()?;
+    Ok((result, parser.used.into_iter().map(str::to_owned).collect()))
 }
 
 struct Parser<'t, 'b> {
@@ -33,14 +40,17 @@ struct Parser<'t, 'b> {
     /// The word before `token`; an end at the beginning.
     before: Token,
     builder: &'b mut Builder,
-    defined: HashMap<&'t str, TermId>,
+    /// Values that names have from outside, and which of them occurred.
+    given: &'b BTreeMap<String, f64>,
+    used: BTreeSet<&'b str>,
+    defined: HashMap<&'t str, Value>,
     depth: usize,
 }
 
-/// An operand, and whether it is a number and nothing else, which may stand before a name without `*`.
+/// An operand, and whether it is written as a number and nothing else, which may stand before a name without `*`.
 #[derive(Clone, Copy)]
 struct Operand {
-    term: TermId,
+    value: Value,
     is_number: bool,
 }
 
@@ -65,7 +75,7 @@ impl<'t> Parser<'t, '_> {
         Ok(self.before.clone())
     }
 
-    fn formula(mut self) -> Read<TermId> {
+    fn formula(&mut self) -> Read<TermId> {
         while self.token.kind == Kind::Name && self.is_followed_by_equals() {
             self.definition()?;
         }
@@ -77,9 +87,14 @@ impl<'t> Parser<'t, '_> {
             };
             return Err(self.error(self.token.span.clone(), message));
         }
+        let start = self.token.span.start;
         let result = self.sum()?;
         match self.token.kind {
-            Kind::End => Ok(result),
+            Kind::End => result.as_number().ok_or_else(|| {
+                let message = format!("a formula is a number, but this is {}", result.kind());
+                self.error(start..self.before.span.end, message)
+                    .hint("write length(v) for the length of a vector, v.x for a part of it")
+            }),
             Kind::Semicolon => {
                 let error = self.error(self.token.span.clone(), "`;` can only stand after a definition");
                 Err(error.hint("a definition is: name = value;"))
@@ -99,11 +114,11 @@ impl<'t> Parser<'t, '_> {
         let word = self.word(&name);
         let equals = self.advance()?.span;
         if COORDINATES.contains(&word) {
+            // Most likely an equation is meant.
             let message = format!("`{word}` is a coordinate, it can't be defined");
             return Err(self.error(equals, message).hint(EQUATION_HINT));
         }
-        let is_taken = names::constant(word).is_some() || names::function(word).is_some();
-        if is_taken || self.defined.contains_key(word) {
+        if names::is_taken(word) || self.given.contains_key(word) || self.defined.contains_key(word) {
             let error = self.error(name.span, format!("`{word}` has a meaning already"));
             return Err(error.hint("choose another name"));
         }
@@ -184,16 +199,32 @@ impl<'t> Parser<'t, '_> {
     }
 
     /// The result of an operation, refused if that divides by 0 or makes a constant that is no number.
-    fn sound(&self, term: TermId, span: Range<usize>) -> Read<TermId> {
+    fn sound(&self, value: Value, span: Range<usize>) -> Read<Value> {
         if self.builder.is_faulty() {
             let error = self.error(span, "this has no finite value");
             return Err(error.hint("for instance, 1/0 and sqrt(-1) have none"));
         }
-        Ok(term)
+        Ok(value)
+    }
+
+    /// The operation of two operands, of which `span` is the place.
+    fn binary(&mut self, op: Binary, left: Value, right: Value, span: Range<usize>) -> Read<Value> {
+        let result = for_each_part(&[left, right], |parts| self.builder.binary(op, parts[0], parts[1]));
+        match result {
+            Ok(result) => self.sound(result, span),
+            Err([left, right]) => {
+                Err(self.error(span, format!("{} and {} have no common parts", left.kind(), right.kind())))
+            }
+        }
+    }
+
+    /// A function of each part of an operand.
+    fn each_part(&mut self, value: Value, mut f: impl FnMut(&mut Builder, TermId) -> TermId) -> Value {
+        for_each_part(&[value], |parts| f(self.builder, parts[0])).unwrap_or(value)
     }
 
     /// Terms added and subtracted.
-    fn sum(&mut self) -> Read<TermId> {
+    fn sum(&mut self) -> Read<Value> {
         let mut left = self.product()?;
         loop {
             let op = match self.token.kind {
@@ -203,13 +234,12 @@ impl<'t> Parser<'t, '_> {
             };
             let span = self.advance()?.span;
             let right = self.product()?;
-            let result = self.builder.binary(op, left, right);
-            left = self.sound(result, span)?;
+            left = self.binary(op, left, right, span)?;
         }
     }
 
     /// Factors multiplied and divided, also those with a number before them.
-    fn product(&mut self) -> Read<TermId> {
+    fn product(&mut self) -> Read<Value> {
         let mut left = self.signed()?;
         let mut divides: Option<Range<usize>> = None;
         loop {
@@ -230,11 +260,10 @@ impl<'t> Parser<'t, '_> {
                     (Binary::Mul, self.token.span.clone(), self.power()?)
                 }
                 kind if kind.is_operand() => return Err(self.unexpected()),
-                _ => return Ok(left.term),
+                _ => return Ok(left.value),
             };
-            let result = self.builder.binary(op, left.term, right.term);
             // `2 * 3x` multiplies, whatever is taken first; so does `6 / 2 * 3x`.
-            left = Operand { term: self.sound(result, span)?, is_number: right.is_number };
+            left = Operand { value: self.binary(op, left.value, right.value, span)?, is_number: right.is_number };
         }
     }
 
@@ -246,7 +275,7 @@ impl<'t> Parser<'t, '_> {
         }
         let power = self.power()?;
         Ok(match is_negative {
-            true => Operand { term: self.builder.unary(Unary::Neg, power.term), ..power },
+            true => Operand { value: self.each_part(power.value, |b, part| b.unary(Unary::Neg, part)), ..power },
             false => power,
         })
     }
@@ -264,8 +293,8 @@ impl<'t> Parser<'t, '_> {
             let error = self.error(operator, format!("is {number} or {number}{word} the exponent here?"));
             return Err(error.hint(format!("write ^{number} * {word}... or ^({number} * {word}...)")));
         }
-        let term = self.builder.binary(Binary::Pow, base.term, exponent.term);
-        Ok(Operand { term: self.sound(term, operator)?, is_number: false })
+        let value = self.binary(Binary::Pow, base.value, exponent.value, operator)?;
+        Ok(Operand { value, is_number: false })
     }
 
     /// An operand with exponents in superscript digits.
@@ -273,34 +302,59 @@ impl<'t> Parser<'t, '_> {
         let mut operand = self.operand()?;
         while let Kind::Raised(exponent) = self.token.kind {
             let span = self.advance()?.span;
-            let term = self.builder.power(operand.term, exponent);
-            operand = Operand { term: self.sound(term, span)?, is_number: false };
+            let value = self.each_part(operand.value, |b, part| b.power(part, exponent));
+            operand = Operand { value: self.sound(value, span)?, is_number: false };
         }
         Ok(operand)
     }
 
     fn operand(&mut self) -> Read<Operand> {
-        match self.token.kind {
+        let mut value = match self.token.kind {
             Kind::Number(number) => {
                 self.advance()?;
-                Ok(Operand { term: self.builder.literal(number), is_number: true })
+                return Ok(Operand { value: Value::number(self.builder.literal(number)), is_number: true });
             }
             Kind::Open => {
                 let open = self.advance()?.span;
-                let term = self.nested(Self::sum)?;
+                let value = self.nested(Self::sum)?;
                 self.close(open)?;
-                Ok(Operand { term, is_number: false })
+                value
             }
             Kind::Name => {
                 let name = self.advance()?;
-                let term = match self.token.kind {
+                match self.token.kind {
                     Kind::Open => self.call(&name)?,
                     _ => self.name(&name)?,
-                };
-                Ok(Operand { term, is_number: false })
+                }
             }
-            _ => Err(self.no_operand()),
+            _ => return Err(self.no_operand()),
+        };
+        while self.token.kind == Kind::Dot {
+            value = self.part(value)?;
         }
+        Ok(Operand { value, is_number: false })
+    }
+
+    /// A part of a vector, or several: `.x`, `.xy`; the point is next.
+    fn part(&mut self, value: Value) -> Read<Value> {
+        let owner = self.word(&self.before);
+        let dot = self.advance()?.span;
+        let letters = self.advance()?;
+        let (word, span) = (self.word(&letters), dot.start..letters.span.end);
+        if value.as_number().is_some() {
+            let error = self.error(span, format!("a number has no part `.{word}`"));
+            return Err(error.hint(format!("write {owner} * {word} for a product")));
+        }
+        let place = |letter: char| {
+            let place = COORDINATES.iter().position(|name| name.starts_with(letter))?;
+            value.parts().get(place).copied()
+        };
+        let parts: Option<Vec<TermId>> = word.chars().map(place).collect();
+        parts.and_then(|parts| Value::of(&parts)).ok_or_else(|| {
+            let all = COORDINATES[..value.parts().len()].concat();
+            let error = self.error(span, format!("{} has no part `.{word}`", value.kind()));
+            error.hint(format!("its parts are the letters of .{all}, up to three of them"))
+        })
     }
 
     /// The closing parenthesis for the one at `open`.
@@ -313,14 +367,20 @@ impl<'t> Parser<'t, '_> {
     }
 
     /// A name by itself.
-    fn name(&mut self, name: &Token) -> Read<TermId> {
+    fn name(&mut self, name: &Token) -> Read<Value> {
         let word = self.word(name);
         if let Some(axis) = COORDINATES.iter().position(|&coordinate| coordinate == word) {
-            Ok(self.builder.input(axis))
+            Ok(Value::number(self.builder.input(axis)))
+        } else if word == POINT {
+            let coordinates = [0, 1, 2].map(|axis| self.builder.input(axis));
+            Ok(Value::of(&coordinates).expect("three parts are a vector"))
         } else if let Some(number) = names::constant(word) {
-            Ok(self.builder.literal(number))
-        } else if let Some(&term) = self.defined.get(word) {
-            Ok(term)
+            Ok(Value::number(self.builder.literal(number)))
+        } else if let Some(&value) = self.defined.get(word) {
+            Ok(value)
+        } else if let Some((name, &number)) = self.given.get_key_value(word) {
+            self.used.insert(name);
+            Ok(Value::number(self.builder.literal(number)))
         } else if let Some(function) = names::function(word) {
             let error = self.error(name.span.clone(), format!("`{word}` needs its arguments in parentheses"));
             Err(match self.token.kind {
@@ -329,8 +389,9 @@ impl<'t> Parser<'t, '_> {
                 _ => error.hint(format!("write {}", function.signature)),
             })
         } else {
-            let known = COORDINATES.into_iter().chain(CONSTANTS.map(|constant| constant.0));
-            Err(self.unknown(name, known.chain(self.defined.keys().copied())))
+            let known = COORDINATES.into_iter().chain([POINT]).chain(CONSTANTS.map(|constant| constant.0));
+            let given = self.given.keys().map(String::as_str);
+            Err(self.unknown(name, known.chain(given).chain(self.defined.keys().copied())))
         }
     }
 
@@ -353,11 +414,10 @@ impl<'t> Parser<'t, '_> {
     }
 
     /// A call of a function; its name is read, the parenthesis is next.
-    fn call(&mut self, name: &Token) -> Read<TermId> {
+    fn call(&mut self, name: &Token) -> Read<Value> {
         let word = self.word(name);
         let Some(function) = names::function(word) else {
-            let is_value =
-                COORDINATES.contains(&word) || names::constant(word).is_some() || self.defined.contains_key(word);
+            let is_value = names::is_taken(word) || self.given.contains_key(word) || self.defined.contains_key(word);
             return Err(if is_value {
                 let error = self.error(name.span.clone(), format!("`{word}` is no function"));
                 error.hint(format!("write {word} * (...) for a product"))
@@ -382,8 +442,12 @@ impl<'t> Parser<'t, '_> {
             let message = format!("`{word}` takes {}, but has {}", function.arity(), arguments.len());
             return Err(self.error(span, message).hint(format!("write {}", function.signature)));
         }
-        let term = function.call(self.builder, &arguments);
-        self.sound(term, span)
+        match function.call(self.builder, &arguments) {
+            Ok(value) => self.sound(value, span),
+            Err(fault) => {
+                Err(self.error(span, format!("`{word}` {fault}")).hint(format!("write {}", function.signature)))
+            }
+        }
     }
 }
 

@@ -18,6 +18,8 @@ pub(super) enum Kind {
     Open,
     Close,
     Comma,
+    /// The point before the letters of a vector's parts.
+    Dot,
     Semicolon,
     Equals,
     End,
@@ -66,6 +68,7 @@ impl<'t> Lexer<'t> {
             return Ok(Token { kind: Kind::End, span: start..start });
         };
         let (kind, length) = match first {
+            '.' if rest[1..].starts_with(|c: char| c.is_ascii_alphabetic()) => (Kind::Dot, 1),
             '0'..='9' | '.' => self.number(start, rest)?,
             'a'..='z' | 'A'..='Z' | '_' => (Kind::Name, run(rest, |c| c.is_ascii_alphanumeric() || c == '_')),
             'π' | 'τ' => (Kind::Name, first.len_utf8()),

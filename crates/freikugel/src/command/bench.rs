@@ -9,7 +9,7 @@ use super::interrupt::Interrupt;
 use super::{Failure, graphics, input, print};
 use freikugel::field::simd;
 use freikugel::render::{Options, Renderer};
-use freikugel::scene::{Camera, Scene};
+use freikugel::scene::{Camera, Inputs, Scene};
 use glam::{DQuat, DVec3};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -149,11 +149,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 /// The scenes of some files with their names, or those that come with the program.
 fn scenes(files: &[PathBuf], voxels: Option<u32>) -> Result<Vec<Measurement>, Failure> {
+    let inputs = Inputs::default();
     let own = |&(name, text, own): &(&str, &str, Option<u32>)| {
-        let scene = input::parsed(text, Path::new(name))?;
+        let scene = input::parsed(text, Path::new(name), &inputs)?;
         Ok(Measurement { name: name.to_owned(), scene, voxels: voxels.or(own) })
     };
-    let read = |path: &PathBuf| Ok(Measurement { name: input::name(path), scene: input::scene(path)?, voxels });
+    let read =
+        |path: &PathBuf| Ok(Measurement { name: input::name(path), scene: input::scene(path, &inputs)?, voxels });
     if files.is_empty() { SCENES.iter().map(own).collect() } else { files.iter().map(read).collect() }
 }
 

@@ -1,13 +1,14 @@
 //! `freikugel check`: diagnostics only.
 
 use super::{Failure, input};
+use freikugel::scene::Inputs;
 use std::path::PathBuf;
 
 /// Checks all scenes, also after one that has errors.
-pub(super) fn run(scenes: &[PathBuf]) -> Result<(), Failure> {
+pub(super) fn run(scenes: &[PathBuf], inputs: &Inputs) -> Result<(), Failure> {
     let mut broken = 0;
     for path in scenes {
-        match input::read(path) {
+        match input::read(path, inputs) {
             Ok(_) => {}
             Err(failure) => {
                 broken += 1;

@@ -1,6 +1,7 @@
 //! `freikugel compare`: the tracers beside each other on one scene.
 
 use super::frame::{Frame, Watch, cannot_render, cannot_write, open, output_path};
+use super::given::Given;
 use super::interrupt::Interrupt;
 use super::sheet::{Bitmap, Color, Sheet, Tile, wrapped};
 use super::{Failure, input, print};
@@ -26,6 +27,8 @@ tolerance without running through it count as grazing: both answers are right.";
 pub(super) struct Arguments {
     /// The scene file, or - for standard input.
     scene: PathBuf,
+    #[command(flatten)]
+    given: Given,
     /// The contact sheet, a .png, or a folder for it and for each picture on it; by default the scene's name with
     /// -compare.png, in the current folder.
     #[arg(short, long, value_name = "FILE or FOLDER")]
@@ -63,7 +66,7 @@ const FADING: f32 = 0.35;
 
 /// Compares the tracers, prints the table, and writes the pictures.
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let scene = input::scene(&arguments.scene)?;
+    let scene = input::scene(&arguments.scene, &arguments.given.inputs())?;
     let target = output_path(arguments.output.as_deref(), &arguments.scene, "-compare.png")?;
     let is_picture = target.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("png"));
     let options = arguments.frame.over(Options::of(&scene));

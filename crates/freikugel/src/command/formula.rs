@@ -1,5 +1,6 @@
 //! `freikugel formula`: what a formula means: simplified, derived, at points and over boxes.
 
+use super::given::Given;
 use super::info::count;
 use super::{Failure, print};
 use freikugel::field::formula::{Formula, FormulaError, Term};
@@ -12,7 +13,8 @@ Examples:
   freikugel formula \"x^2 + y^2 - 1\" --derive x --at 1,2,3
   freikugel formula \"sin(x) / x\" --derive x --derive xx --at 0.5,0,0 --at 1,0,0
   freikugel formula \"r = hypot(x, y); hypot(r - 2, z) - 0.5\" --over -3..3
-  freikugel formula \"x*y - z\" --over 0..1,-1..1,0.5";
+  freikugel formula \"x*y - z\" --over 0..1,-1..1,0.5
+  freikugel formula \"length(p - vec(sin(t), 0, 0)) - radius\" --set radius=2 --time 0.5";
 
 /// The names of the coordinates.
 const COORDINATES: [char; 3] = ['x', 'y', 'z'];
@@ -27,6 +29,8 @@ pub(super) struct Arguments {
     /// The formula, in x, y and z, as in a scene.
     #[arg(allow_hyphen_values = true)]
     formula: String,
+    #[command(flatten)]
+    given: Given,
     /// Show a derivative: by x, y or z; several letters for one after another.
     #[arg(long, value_name = "XYZ", value_parser = parse_derivative)]
     derive: Vec<Axes>,
@@ -82,8 +86,8 @@ fn parse_box(text: &str) -> Result<Region, String> {
 
 /// Explains a formula.
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let formula =
-        Formula::parse(&arguments.formula).map_err(|error| Failure::Input(pointed(&arguments.formula, &error)))?;
+    let formula = Formula::parse_with(&arguments.formula, &arguments.given.names())
+        .map_err(|error| Failure::Input(pointed(&arguments.formula, &error)))?;
     let derivatives: Vec<(String, Formula)> = arguments.derive.iter().map(|axes| derivative(&formula, axes)).collect();
     let mut text = String::new();
     let _ = writeln!(text, "{}\n  {}", shown(&formula), kind(&formula));

@@ -91,6 +91,8 @@ pub(super) fn parse_method(text: &str) -> Result<Method, String> {
 pub(super) struct Watch {
     pub(super) bar: ProgressBar,
     pub(super) interrupt: Interrupt,
+    /// Which part of the work is watched, and how many there are.
+    part: [u64; 2],
 }
 
 impl Watch {
@@ -104,14 +106,20 @@ impl Watch {
         let style =
             ProgressStyle::with_template("{wide_bar} {percent:>3} %, {eta} left").expect("the template is well-formed");
         let bar = ProgressBar::with_draw_target(Some(1), target).with_style(style);
-        Self { bar, interrupt: interrupt.clone() }
+        Self { bar, interrupt: interrupt.clone(), part: [0, 1] }
+    }
+
+    /// The same bar for one part of the work, of several that take equally long.
+    pub(super) fn for_part(&self, part: u64, parts: u64) -> Self {
+        Self { bar: self.bar.clone(), interrupt: self.interrupt.clone(), part: [part, parts] }
     }
 }
 
 impl Progress for Watch {
     fn advanced(&self, done: u64, total: u64) {
-        self.bar.set_length(total);
-        self.bar.set_position(done);
+        let [part, parts] = self.part;
+        self.bar.set_length(total * parts);
+        self.bar.set_position(total * part + done);
     }
 
     fn is_cancelled(&self) -> bool {

@@ -1,5 +1,6 @@
 //! `freikugel info`: what a scene is made of.
 
+use super::given::Given;
 use super::input::{self, Input};
 use super::{Failure, graphics, print};
 use freikugel::field::shape::FormulaParam;
@@ -16,6 +17,8 @@ pub(super) struct Arguments {
     /// The scene file, or - for standard input; or a model, whose file is called `.vm`.
     #[arg(required_unless_present = "gpu")]
     scene: Option<PathBuf>,
+    #[command(flatten)]
+    given: Given,
     /// List the graphics processors of this machine, the one that is taken first.
     #[arg(long)]
     gpu: bool,
@@ -35,7 +38,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let Some(path) = &arguments.scene else {
         return Ok(());
     };
-    match input::read(path)? {
+    match input::read(path, &arguments.given.inputs())? {
         Input::Scene(scene) | Input::Figures(scene) => print(&describe(&scene)),
         Input::Region(region) => print(&describe(&Scene::of(region.field()))),
     }

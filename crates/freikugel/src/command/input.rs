@@ -2,7 +2,7 @@
 
 use super::Failure;
 use freikugel::model::{self, Model, Region};
-use freikugel::scene::{self, Diagnostic, Folder, Reading, Scene, Severity, report};
+use freikugel::scene::{self, Diagnostic, Folder, Inputs, Reading, Scene, Severity, report};
 use std::io::{IsTerminal, Read};
 use std::path::Path;
 #[cfg(feature = "gpu")]
@@ -40,11 +40,14 @@ pub(super) enum Input {
 }
 
 /// Reads a scene or, if the file is called `.vm`, a model, printing all diagnostics to standard error.
-pub(super) fn read(path: &Path) -> Result<Input, Failure> {
+pub(super) fn read(path: &Path, inputs: &Inputs) -> Result<Input, Failure> {
     let (text, name) = (text(path)?, name(path));
     if !is_model(path) {
-        let scene = Box::new(parsed(&text, path)?);
+        let scene = Box::new(parsed(&text, path, inputs)?);
         return Ok(if scene.is_plane() { Input::Figures(scene) } else { Input::Scene(scene) });
+    }
+    if !inputs.set.is_empty() {
+        return Err(Failure::Usage(format!("{name} is a model, which has no parameters that --set could set")));
     }
     match model::read(&text) {
         Ok(Model::Solid(scene)) => Ok(Input::Scene(scene)),
@@ -61,13 +64,13 @@ const FIGURES: &str = "holds plane figures, through which no rays are traced: gi
                        `freikugel slice`";
 
 /// Whether a file's name says that it holds a model.
-fn is_model(path: &Path) -> bool {
+pub(super) fn is_model(path: &Path) -> bool {
     path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("vm"))
 }
 
 /// Reads a scene, or a model that is a solid.
-pub(super) fn scene(path: &Path) -> Result<Scene, Failure> {
-    match read(path)? {
+pub(super) fn scene(path: &Path, inputs: &Inputs) -> Result<Scene, Failure> {
+    match read(path, inputs)? {
         Input::Scene(scene) => Ok(*scene),
         Input::Figures(_) => Err(Failure::Input(format!("{} {FIGURES}", name(path)))),
         Input::Region(_) => Err(Failure::Input(format!(
@@ -79,7 +82,7 @@ pub(super) fn scene(path: &Path) -> Result<Scene, Failure> {
 
 /// Reads a scene, or a model that is a solid, without printing anything; what is wrong with it comes back as text.
 #[cfg(feature = "gpu")]
-pub(super) fn scene_or_report(path: &Path) -> Result<Scene, String> {
+pub(super) fn scene_or_report(path: &Path, inputs: &Inputs) -> Result<Scene, String> {
     let name = name(path);
     let text = text_of(path).map_err(|fault| format!("can't read {name}: {fault}"))?;
     let (scene, diagnostics) = if is_model(path) {
@@ -89,7 +92,7 @@ pub(super) fn scene_or_report(path: &Path) -> Result<Scene, String> {
             Err(fault) => (None, vec![fault]),
         }
     } else {
-        let Reading { scene, diagnostics, .. } = scene::read_with(&text, Folder::of(path));
+        let Reading { scene, diagnostics, .. } = scene::read_at(&text, Folder::of(path), inputs);
         (scene, diagnostics)
     };
     scene.ok_or_else(|| report(&text, &name, &diagnostics, false))
@@ -106,8 +109,8 @@ pub(super) fn name(path: &Path) -> String {
 }
 
 /// The scene of a text that is, or stands for, that of the file `path`, printing all diagnostics to standard error.
-pub(super) fn parsed(text: &str, path: &Path) -> Result<Scene, Failure> {
-    let Reading { scene, diagnostics, .. } = scene::read_with(text, Folder::of(path));
+pub(super) fn parsed(text: &str, path: &Path, inputs: &Inputs) -> Result<Scene, Failure> {
+    let Reading { scene, diagnostics, .. } = scene::read_at(text, Folder::of(path), inputs);
     let name = name(path);
     show(text, &name, &diagnostics);
     scene.ok_or_else(|| faulty(&name, &diagnostics))
@@ -115,10 +118,10 @@ pub(super) fn parsed(text: &str, path: &Path) -> Result<Scene, Failure> {
 
 /// The scene's file, and the files that it names, as far as they could be read.
 #[cfg(feature = "gpu")]
-pub(super) fn files(path: &Path) -> Vec<PathBuf> {
+pub(super) fn files(path: &Path, inputs: &Inputs) -> Vec<PathBuf> {
     let folder = Folder::of(path);
     let text = if is_model(path) { None } else { text_of(path).ok() };
-    let named = text.map(|text| scene::read_with(&text, folder.clone()).files).unwrap_or_default();
+    let named = text.map(|text| scene::read_at(&text, folder.clone(), inputs).files).unwrap_or_default();
     std::iter::once(path.to_owned()).chain(named.iter().map(|name| folder.path(name))).collect()
 }
 

@@ -1,7 +1,10 @@
 //! `freikugel render`: a picture of a scene or model.
 
+mod frames;
+
 use super::Failure;
 use super::frame::{Frame, Samples, Voxels, Watch, cannot_render, cannot_write, open, output_path, parse_method};
+use super::given::Given;
 use super::graphics::{self, Backend};
 use super::input::{self, Input};
 use super::interrupt::Interrupt;
@@ -11,6 +14,7 @@ use freikugel::model::Region;
 use freikugel::render::{Compression, Options, Rect, Rendered, Stats, render};
 use freikugel::scene::color::from_hex;
 use freikugel::scene::{Method, Picture, Rgb};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -23,7 +27,14 @@ Examples:
   freikugel render cup.json --stats cup-stats.json
   freikugel render cup.json --backend gpu         by the graphics processor
   freikugel render cup.json --backend gpu --voxels 50
-  freikugel render cup.vm                         an expression graph: a solid, or without z a region of the plane";
+  freikugel render cup.vm                         an expression graph: a solid, or without z a region of the plane
+  freikugel render cup.json --set radius=2        with another value for a parameter
+  freikugel render cup.json --frames 0..120 --fps 30 -o cup.gif
+  freikugel render cup.json --frames 0..120 --fps 30 -o frames/cup.png
+
+With --frames, the scene is seen at the times FRAME / FPS, which its formulas call `t`. The suffix says what becomes of the
+frames: .png and .exr make a file of each (cup-0000.png, ...), .apng, .gif and .webp one that moves, .mp4 and .webm a video,
+by ffmpeg. What was interrupted goes on when the same command runs again.";
 
 /// Render a picture of a scene.
 #[derive(Debug, clap::Args)]
@@ -31,13 +42,23 @@ Examples:
 pub(super) struct Arguments {
     /// The scene file, or - for standard input; or a model, whose file is called `.vm`.
     scene: PathBuf,
-    /// The picture, .png or .exr; by default the scene's name with .png, in the current folder.
+    /// The picture, .png or .exr, or .apng, .gif, .webp, .mp4 or .webm for --frames; by default the scene's name with .png, in the
+    /// current folder.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    given: Given,
     #[command(flatten)]
     frame: Frame,
     #[command(flatten)]
     samples: Samples,
+    /// Render several frames, not the last number.
+    #[arg(long, value_name = "FROM..TO", value_parser = frames::parse_range, conflicts_with = "stats")]
+    frames: Option<Range<u32>>,
+    /// Frames a second.
+    #[arg(long, value_name = "COUNT", default_value_t = 30, requires = "frames",
+          value_parser = clap::value_parser!(u16).range(1..=MOST_FPS))]
+    fps: u16,
     /// The part of the frame to render.
     #[arg(long, value_name = "X,Y,WIDTH,HEIGHT", value_parser = parse_crop)]
     crop: Option<Rect>,
@@ -69,6 +90,9 @@ pub(super) struct Arguments {
     quiet: bool,
 }
 
+/// More frames a second than any screen shows.
+const MOST_FPS: i64 = 1000;
+
 fn parse_crop(text: &str) -> Result<Rect, String> {
     let numbers: Result<Vec<u32>, _> = text.split(',').map(|word| word.trim().parse()).collect();
     match numbers.as_deref() {
@@ -83,26 +107,18 @@ fn parse_color(text: &str) -> Result<Rgb, String> {
 
 /// Renders the picture and writes its files.
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if let Some(range) = &arguments.frames {
+        return frames::run(arguments, range);
+    }
     let path = output_path(arguments.output.as_deref(), &arguments.scene, ".png")?;
     let format = Format::of(&path)
         .ok_or_else(|| Failure::Usage(format!("{}: the suffix must be .png or .exr", path.display())))?;
-    let level = arguments.simd.as_deref().map(instruction_set).transpose()?;
-
-    let mut input = input::read(&arguments.scene)?;
-    let mut options = match &mut input {
-        Input::Scene(scene) => {
-            scene.tracer.method = arguments.tracer.unwrap_or(scene.tracer.method);
-            scene.tracer.warning = arguments.warning_color.or(scene.tracer.warning);
-            Options::of(scene)
-        }
-        Input::Figures(scene) => Options::of(scene),
-        Input::Region(_) => Region::options(),
-    };
-    options = Options { crop: arguments.crop, level, ..arguments.samples.over(arguments.frame.over(options)) };
-    if let (Input::Region(_), Some(side)) = (&input, arguments.frame.only_side()) {
-        // Regions are seen in a square unless both sides are given.
-        (options.width, options.height) = (side, side);
+    let mut input = input::read(&arguments.scene, &arguments.given.inputs())?;
+    if let Input::Scene(scene) = &mut input {
+        scene.tracer.method = arguments.tracer.unwrap_or(scene.tracer.method);
+        scene.tracer.warning = arguments.warning_color.or(scene.tracer.warning);
     }
+    let options = options(arguments, &input)?;
     options.region().map_err(|error| Failure::Usage(error.to_string()))?;
     let backend = backend(arguments)?;
 
@@ -111,22 +127,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stats_file = arguments.stats.as_deref().map(|path| open(path, &interrupt)).transpose()?;
 
     let watch = Watch::new(arguments.quiet, &interrupt);
-    let on_cpu = |input: &Input| match input {
-        Input::Scene(scene) => render(scene, &options, &watch).map_err(cannot_render),
-        Input::Figures(scene) => picture_of_figures(scene, &options, &watch),
-        Input::Region(region) => region.render(&options, &watch).map_err(cannot_render),
-    };
-    let how = graphics::How { adapter: arguments.adapter.as_deref(), voxels: arguments.voxels.count };
-    let made = match (backend, &input) {
-        (Backend::Cpu, _) => on_cpu(&input).map(|rendered| (rendered, None)),
-        (Backend::Gpu, Input::Scene(scene)) => graphics::render(scene, &options, how, &watch),
-        (Backend::Gpu, Input::Region(_) | Input::Figures(_)) => {
-            Err(Failure::Usage("what lies in a plane is rendered on the CPU: leave --backend out".into()))
-        }
-        (Backend::Auto, Input::Scene(scene)) => graphics::render_if_able(scene, &options, how, &watch)
-            .unwrap_or_else(|reason| on_cpu(&input).map(|rendered| (rendered, Some(format!("CPU: {reason}"))))),
-        (Backend::Auto, Input::Region(_) | Input::Figures(_)) => on_cpu(&input).map(|rendered| (rendered, None)),
-    };
+    let made = make(arguments, backend, &input, &options, &watch);
     watch.bar.finish_and_clear();
     let (rendered, by) = made?;
 
@@ -152,6 +153,47 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         summarise(&path, &rendered, by.as_deref());
     }
     Ok(())
+}
+
+/// What the command line asks for, over what the scene says.
+fn options(arguments: &Arguments, input: &Input) -> Result<Options, Failure> {
+    let options = match input {
+        Input::Scene(scene) | Input::Figures(scene) => Options::of(scene),
+        Input::Region(_) => Region::options(),
+    };
+    let level = arguments.simd.as_deref().map(instruction_set).transpose()?;
+    let mut options = Options { crop: arguments.crop, level, ..arguments.samples.over(arguments.frame.over(options)) };
+    if let (Input::Region(_), Some(side)) = (input, arguments.frame.only_side()) {
+        // Regions are seen in a square unless both sides are given.
+        (options.width, options.height) = (side, side);
+    }
+    Ok(options)
+}
+
+/// The picture of what was read, and what computed it, if that is of interest.
+fn make(
+    arguments: &Arguments,
+    backend: Backend,
+    input: &Input,
+    options: &Options,
+    watch: &Watch,
+) -> Result<graphics::Made, Failure> {
+    let on_cpu = || match input {
+        Input::Scene(scene) => render(scene, options, watch).map_err(cannot_render),
+        Input::Figures(scene) => picture_of_figures(scene, options, watch),
+        Input::Region(region) => region.render(options, watch).map_err(cannot_render),
+    };
+    let how = graphics::How { adapter: arguments.adapter.as_deref(), voxels: arguments.voxels.count };
+    match (backend, input) {
+        (Backend::Cpu, _) => on_cpu().map(|rendered| (rendered, None)),
+        (Backend::Gpu, Input::Scene(scene)) => graphics::render(scene, options, how, watch),
+        (Backend::Gpu, Input::Region(_) | Input::Figures(_)) => {
+            Err(Failure::Usage("what lies in a plane is rendered on the CPU: leave --backend out".into()))
+        }
+        (Backend::Auto, Input::Scene(scene)) => graphics::render_if_able(scene, options, how, watch)
+            .unwrap_or_else(|reason| on_cpu().map(|rendered| (rendered, Some(format!("CPU: {reason}"))))),
+        (Backend::Auto, Input::Region(_) | Input::Figures(_)) => on_cpu().map(|rendered| (rendered, None)),
+    }
 }
 
 /// What computes the picture, as far as the words of the command line say: some of them mean something on the CPU only.

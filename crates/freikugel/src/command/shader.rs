@@ -1,6 +1,7 @@
 //! `freikugel shader`: a scene as the text of a shader.
 
 use super::frame::{Voxels, cannot_write, open, output_path};
+use super::given::Given;
 use super::interrupt::Interrupt;
 use super::{Failure, input, print};
 use freikugel::scene::Scene;
@@ -20,6 +21,8 @@ Examples:
 pub(super) struct Arguments {
     /// The scene file, or - for standard input; or a model, whose file is called `.vm`.
     scene: PathBuf,
+    #[command(flatten)]
+    given: Given,
     /// The language and the host: wgsl (WebGPU), glsl (WebGL 2), shadertoy, hlsl (Unity) or msl (Metal).
     #[arg(short, long, value_name = "NAME", value_parser = parse_target)]
     target: Target,
@@ -46,7 +49,7 @@ fn parse_target(text: &str) -> Result<Target, String> {
 
 /// Writes the shader.
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let scene = input::scene(&arguments.scene)?;
+    let scene = input::scene(&arguments.scene, &arguments.given.inputs())?;
     let to_output = arguments.output.as_deref() == Some(Path::new("-"));
     let interrupt = Interrupt::listen();
     let place = |path: &Path| open(path, &interrupt).map(|file| (file, path.to_owned()));

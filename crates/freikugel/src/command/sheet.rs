@@ -2,8 +2,10 @@
 //!
 //! Letters are those of Noto Sans Mono (SIL Open Font License 1.1), which come drawn in advance.
 
+use super::Failure;
 use freikugel::render::{Image, Tone};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
+use std::path::Path;
 
 /// Red, green and blue in sRGB.
 pub(super) type Color = [u8; 3];
@@ -62,6 +64,20 @@ impl Bitmap {
     pub(super) fn of(image: &Image, tone: &Tone) -> Self {
         let pixels = image.to_srgb8(tone).chunks_exact(3).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
         Self { width: image.width(), height: image.height(), pixels }
+    }
+
+    /// The picture in a PNG file with three channels of 8 bits.
+    pub(super) fn read(path: &Path) -> Result<Self, Failure> {
+        let fault = |error: &dyn std::fmt::Display| Failure::Input(format!("can't read {}: {error}", path.display()));
+        let file = std::fs::File::open(path).map_err(|error| fault(&error))?;
+        let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().map_err(|error| fault(&error))?;
+        let (width, height) = (reader.info().width, reader.info().height);
+        let mut pixels = vec![[0; 3]; width as usize * height as usize];
+        if reader.output_buffer_size() != Some(pixels.as_flattened().len()) {
+            return Err(fault(&"it is no picture of three channels of 8 bits"));
+        }
+        reader.next_frame(pixels.as_flattened_mut()).map_err(|error| fault(&error))?;
+        Ok(Self { width, height, pixels })
     }
 
     /// The picture as a PNG file, as small as can be: sheets are kept and shown more often than they are made.

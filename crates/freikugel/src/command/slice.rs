@@ -1,6 +1,7 @@
 //! `freikugel slice`: the values of a scene's field in a plane.
 
 use super::frame::{Frame, Samples, Watch, cannot_render, cannot_write, open, output_path};
+use super::given::Given;
 use super::input::{self, Input};
 use super::interrupt::Interrupt;
 use super::{Failure, input::name};
@@ -31,6 +32,8 @@ Examples:
 pub(super) struct Arguments {
     /// The scene file, or - for standard input; or a model, whose file is called `.vm`.
     scene: PathBuf,
+    #[command(flatten)]
+    given: Given,
     /// The picture: PNG, EXR, or the lines as SVG; by default the scene's name with `-slice.png`, in the current folder.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -105,7 +108,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !is_svg && format.is_none() {
         return Err(Failure::Usage(format!("{}: the suffix must be .png, .exr or .svg", path.display())));
     }
-    let (scene, is_plane) = match input::read(&arguments.scene)? {
+    let (scene, is_plane) = match input::read(&arguments.scene, &arguments.given.inputs())? {
         Input::Scene(scene) => (*scene, false),
         Input::Figures(scene) => (*scene, true),
         Input::Region(region) => (Scene::of(region.field()), true),

@@ -1,12 +1,13 @@
 //! `freikugel sweep`: one scene with several values of a number, or of two, as a contact sheet.
 
 use super::frame::{Frame, Samples, Watch, cannot_render, cannot_write, open, output_path, parse_method};
+use super::given::Given;
 use super::interrupt::Interrupt;
 use super::sheet::{Bitmap, Sheet, Tile};
 use super::{Failure, input};
 use freikugel::render::{Options, Tone, render};
 use freikugel::scene::edit::{EditError, Path as Way, with_value};
-use freikugel::scene::{Folder, Method, Scene, Severity, read_with};
+use freikugel::scene::{Folder, Inputs, Method, Scene, Severity, read_at};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -35,6 +36,8 @@ pub(super) struct Arguments {
     /// Pictures in a row, if one thing is varied.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
     columns: Option<u16>,
+    #[command(flatten)]
+    given: Given,
     #[command(flatten)]
     frame: Frame,
     #[command(flatten)]
@@ -142,7 +145,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let text = input::text(&arguments.scene)?;
     let name = input::name(&arguments.scene);
-    input::parsed(&text, &arguments.scene)?;
+    let inputs = arguments.given.inputs();
+    input::parsed(&text, &arguments.scene, &inputs)?;
     let columns = columns.expect("there is one axis at least");
     let one = [(String::new(), String::new())];
     let row_values = rows.map_or(&one[..], |rows| &rows.values);
@@ -150,7 +154,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for row in row_values {
         for column in &columns.values {
             let changes = rows.map(|rows| (&rows.path, row)).into_iter().chain([(&columns.path, column)]);
-            let mut scene = changed(&text, &arguments.scene, changes)?;
+            let mut scene = changed(&text, &arguments.scene, &inputs, changes)?;
             scene.tracer.method = arguments.tracer.unwrap_or(scene.tracer.method);
             scenes.push(scene);
         }
@@ -213,6 +217,7 @@ fn labelled(axis: &Axis, index: usize) -> String {
 fn changed<'a>(
     text: &str,
     path: &Path,
+    inputs: &Inputs,
     changes: impl Iterator<Item = (&'a Way, &'a (String, String))>,
 ) -> Result<Scene, Failure> {
     let (mut text, name) = (text.to_owned(), &input::name(path));
@@ -229,7 +234,7 @@ fn changed<'a>(
         said.push(format!("{way}={shown}"));
         added.extend(edited.added.map(|sentence| format!("; {sentence}")));
     }
-    let reading = read_with(&text, Folder::of(path));
+    let reading = read_at(&text, Folder::of(path), inputs);
     reading.scene.ok_or_else(|| {
         let errors: Vec<_> = reading.diagnostics.into_iter().filter(|d| d.severity == Severity::Error).collect();
         let said = said.join(" and ");

@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::frame::{Samples, Voxels};
+use super::given::Given;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -25,6 +26,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "PIXELS")]
     height: Option<u32>,
     #[command(flatten)]
+    given: Given,
+    #[command(flatten)]
     samples: Samples,
     #[command(flatten)]
     voxels: Voxels,
@@ -42,7 +45,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Says how to get a program with windows.
 #[cfg(not(feature = "gpu"))]
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let Arguments { scene: _, width: _, height: _, samples: _, voxels: _, adapter: _ } = arguments;
+    let Arguments { scene: _, given: _, width: _, height: _, samples: _, voxels: _, adapter: _ } = arguments;
     Err(super::graphics::missing("view"))
 }
 
@@ -53,14 +56,15 @@ mod window {
     use freikugel::files::Output;
     use freikugel::gpu::{Host, ViewError, WindowOptions, view};
     use freikugel::render::Options;
-    use freikugel::scene::{Camera, FovAxis, Projection, Scene};
+    use freikugel::scene::{Camera, FovAxis, Inputs, Projection, Scene};
     use std::path::{Path, PathBuf};
     use std::time::SystemTime;
 
     pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let path = &arguments.scene;
-        let mut files = Files::of(path);
-        let scene = input::scene(path)?;
+        let inputs = arguments.given.inputs();
+        let scene = input::scene(path, &inputs)?;
+        let mut files = Files::of(path, inputs);
         let mut options = Options::of(&scene);
         options.width = arguments.width.unwrap_or(options.width);
         options.height = arguments.height.unwrap_or(options.height);
@@ -86,13 +90,14 @@ mod window {
     /// The scene's file, and it and all that it names with what is known of when they were changed last.
     struct Files<'p> {
         path: &'p Path,
+        inputs: Inputs,
         stamps: Vec<(PathBuf, Option<Stamp>)>,
     }
 
     impl<'p> Files<'p> {
-        fn of(path: &'p Path) -> Self {
-            let stamps = input::files(path).into_iter().map(|path| (path.clone(), stamp(&path))).collect();
-            Self { path, stamps }
+        fn of(path: &'p Path, inputs: Inputs) -> Self {
+            let stamps = input::files(path, &inputs).into_iter().map(|path| (path.clone(), stamp(&path))).collect();
+            Self { path, inputs, stamps }
         }
     }
 
@@ -106,8 +111,8 @@ mod window {
 
     impl Host for Files<'_> {
         fn load(&mut self) -> Result<Scene, String> {
-            *self = Files::of(self.path);
-            input::scene_or_report(self.path)
+            *self = Files::of(self.path, std::mem::take(&mut self.inputs));
+            input::scene_or_report(self.path, &self.inputs)
         }
 
         fn has_changed(&mut self) -> bool {

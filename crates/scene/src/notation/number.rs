@@ -66,7 +66,7 @@ impl Number {
     }
 
     fn describe(&self, kind: &str) -> Json {
-        let mut schema = json!({ "type": kind });
+        let mut schema = json!({ "type": [kind, "string"] });
         let bounds = [
             ("minimum", self.least),
             ("exclusiveMinimum", self.above),
@@ -142,6 +142,25 @@ impl Notation<u32> for Number {
     fn schema(&self, _definitions: &mut Definitions) -> Json {
         self.describe("integer")
     }
+}
+
+/// The schema of a number, which a text may stand for: a formula.
+pub(crate) fn number_schema() -> Json {
+    json!({ "type": ["number", "string"] })
+}
+
+/// The same with more keys.
+pub(crate) fn number_schema_with(keys: Json) -> Json {
+    let mut schema = number_schema();
+    if let (Some(schema), Json::Object(keys)) = (schema.as_object_mut(), keys) {
+        schema.extend(keys);
+    }
+    schema
+}
+
+/// The schema of a whole number in a range, which a text may stand for: a formula.
+pub(crate) fn count_schema(least: impl Into<Json>, most: impl Into<Json>) -> Json {
+    json!({ "type": ["integer", "string"], "minimum": least.into(), "maximum": most.into() })
 }
 
 /// Degrees without the noise of the conversion: nobody writes more than nine decimals of a degree.

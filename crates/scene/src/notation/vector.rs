@@ -1,7 +1,7 @@
 //! Points and directions.
 
 use super::Notation;
-use super::number::tidy;
+use super::number::{number_schema, tidy};
 use crate::reader::Reader;
 use crate::schema::Definitions;
 use crate::suggest::quote;
@@ -70,7 +70,7 @@ impl Notation<DVec3> for Vector {
 
 /// A list of exactly `count` numbers.
 pub(crate) fn numbers_schema(count: usize) -> Json {
-    json!({ "type": "array", "items": { "type": "number" }, "minItems": count, "maxItems": count })
+    json!({ "type": "array", "items": number_schema(), "minItems": count, "maxItems": count })
 }
 
 /// A direction, by numbers or by name.

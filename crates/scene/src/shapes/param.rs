@@ -1,7 +1,10 @@
 //! Parameters of shapes: how each [`ParamKind`] is written.
 
 use crate::files::{FileNotation, rows_of};
-use crate::notation::{Notation, direction_schema, index_of, named_direction, numbers_schema, tidy, tidy_degrees};
+use crate::notation::{
+    Notation, count_schema, direction_schema, index_of, named_direction, number_schema, number_schema_with,
+    numbers_schema, tidy, tidy_degrees,
+};
 use crate::ply;
 use crate::reader::{Reader, span};
 use crate::schema::Definitions;
@@ -34,17 +37,17 @@ impl Notation<Vec<f64>> for ParamKind {
             (Self::Direction, Written::StringLit(name)) => {
                 named_direction(reader, value, &name.value)?.to_array().to_vec()
             }
-            (Self::Size, Written::NumberLit(_)) => vec![reader.number(value)?; 3],
+            (Self::Size, Written::NumberLit(_) | Written::StringLit(_)) => vec![reader.number(value)?; 3],
             (Self::Size, Written::Array(_)) | (Self::Vector | Self::Direction | Self::Lengths | Self::Factors, _) => {
                 reader.numbers(value, ["x", "y", "z"])?.to_vec()
             }
-            (Self::Counts(..), Written::NumberLit(_)) => vec![reader.number(value)?; 3],
+            (Self::Counts(..), Written::NumberLit(_) | Written::StringLit(_)) => vec![reader.number(value)?; 3],
             (Self::Counts(..), Written::Array(_)) => reader.numbers(value, ["x", "y", "z"])?.to_vec(),
             (Self::Counts(..), _) => {
                 reader.mistyped(value, "a whole number or a list of 3 whole numbers, [x, y, z]", None);
                 return None;
             }
-            (Self::Size2, Written::NumberLit(_)) => vec![reader.number(value)?; 2],
+            (Self::Size2, Written::NumberLit(_) | Written::StringLit(_)) => vec![reader.number(value)?; 2],
             (Self::Size2, Written::Array(_)) => reader.numbers(value, ["x", "y"])?.to_vec(),
             (Self::Size2, _) => {
                 reader.mistyped(value, "a number or a list of 2 numbers, [x, y]", None);
@@ -148,16 +151,16 @@ impl Notation<Vec<f64>> for ParamKind {
     }
 
     fn schema(&self, definitions: &mut Definitions) -> Json {
-        let factor = || json!({ "type": "number", "not": { "const": 0 } });
-        let length = || json!({ "type": "number", "exclusiveMinimum": 0 });
-        let numbers = || json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 });
+        let factor = || number_schema_with(json!({ "not": { "const": 0 } }));
+        let length = || number_schema_with(json!({ "exclusiveMinimum": 0 }));
+        let numbers = || json!({ "type": "array", "items": number_schema(), "minItems": 1 });
         let three = |item: Json| json!({ "type": "array", "items": item, "minItems": 3, "maxItems": 3 });
         match *self {
-            Self::Number | Self::Angle => json!({ "type": "number" }),
-            Self::Length => json!({ "type": "number", "minimum": 0 }),
+            Self::Number | Self::Angle => number_schema(),
+            Self::Length => number_schema_with(json!({ "minimum": 0 })),
             Self::Positive => length(),
             Self::Factor => factor(),
-            Self::Count(least, most) => json!({ "type": "integer", "minimum": least, "maximum": most }),
+            Self::Count(least, most) => count_schema(least, most),
             Self::Choice(names) => {
                 let numbers = names.iter().filter_map(|name| name.parse().ok()).map(tidy);
                 let numbers = numbers.filter(|_| are_numbers(names));
@@ -168,15 +171,14 @@ impl Notation<Vec<f64>> for ParamKind {
             Self::Direction => direction_schema(),
             Self::Size => json!({ "anyOf": [length(), three(length())] }),
             Self::Counts(least, most) => {
-                let count = || json!({ "type": "integer", "minimum": least, "maximum": most });
-                json!({ "anyOf": [count(), three(count())] })
+                json!({ "anyOf": [count_schema(least, most), three(count_schema(least, most))] })
             }
             Self::Size2 => {
                 let two = json!({ "type": "array", "items": length(), "minItems": 2, "maxItems": 2 });
                 json!({ "anyOf": [length(), two] })
             }
             Self::Factors => three(factor()),
-            Self::Lengths => three(json!({ "type": "number", "minimum": 0 })),
+            Self::Lengths => three(number_schema_with(json!({ "minimum": 0 }))),
             Self::Matrix => three(numbers_schema(3)),
             Self::Quaternion | Self::Quadruple => numbers_schema(4),
             Self::Region => {
@@ -201,7 +203,7 @@ impl Notation<Vec<f64>> for ParamKind {
             }
             Self::Text => json!({ "anyOf": [{ "type": "string", "minLength": 1 }, FileNotation.schema(definitions)] }),
             Self::Contours => {
-                let corner = json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 3 });
+                let corner = json!({ "type": "array", "items": number_schema(), "minItems": 2, "maxItems": 3 });
                 let line = || json!({ "type": "array", "items": corner, "minItems": 2 });
                 json!({ "anyOf": [line(), { "type": "array", "items": line(), "minItems": 1 }] })
             }
@@ -409,11 +411,12 @@ fn each<'a>(
 mod tests {
     use super::{Notation, ParamKind, Reader};
     use crate::files::NoFiles;
+    use crate::names::Inputs;
     use crate::syntax::parse;
     use serde_json::json;
 
     fn read(kind: ParamKind, text: &str) -> Result<Vec<f64>, String> {
-        let mut reader = Reader::new(NoFiles);
+        let mut reader = Reader::new(NoFiles, &Inputs::default());
         let value = parse(text, &mut reader.diagnostics).expect("JSON");
         kind.read(&mut reader, &value).ok_or_else(|| reader.diagnostics[0].message.clone())
     }

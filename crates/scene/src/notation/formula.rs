@@ -7,8 +7,8 @@ use crate::syntax::Written;
 use freikugel_field::Formula;
 use serde_json::{Value as Json, json};
 
-/// The notation of a formula in x, y and z.
-pub(super) struct FormulaNotation;
+/// The notation of a formula in x, y and z, in which names of the scene's parameters and the time may stand.
+pub(crate) struct FormulaNotation;
 
 impl Notation<Formula> for FormulaNotation {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Formula> {
@@ -17,8 +17,11 @@ impl Notation<Formula> for FormulaNotation {
             reader.mistyped(value, "a formula, as a text", Some(hint.into()));
             return None;
         };
-        match Formula::parse(&text.value) {
-            Ok(formula) => Some(formula),
+        match Formula::parse_with(&text.value, reader.names.known()) {
+            Ok(formula) => {
+                reader.names.note(formula.names());
+                Some(formula)
+            }
             Err(fault) => {
                 let whole = span(value);
                 // With escapes in the text, places in it are not those in the file.
@@ -40,4 +43,15 @@ impl Notation<Formula> for FormulaNotation {
     fn schema(&self, _definitions: &mut Definitions) -> Json {
         json!({ "type": "string", "minLength": 1 })
     }
+}
+
+/// The number that a formula without coordinates is.
+pub(crate) fn computed(reader: &mut Reader, value: &Written<'_>) -> Option<f64> {
+    let formula = FormulaNotation.read(reader, value)?;
+    let number = formula.constant();
+    if number.is_none() {
+        let message = format!("{} is one number, which can't depend on x, y or z", reader.label());
+        reader.error(span(value), message, Some("parameters of the scene and the time `t` may stand here".into()));
+    }
+    number
 }
