@@ -95,8 +95,9 @@ fn encode(error: impl fmt::Display) -> AnimationError {
 pub struct Animation {
     size: [u32; 2],
     rate: u16,
-    /// How many frames it has so far.
+    /// How many frames it has so far, and how many it is to have.
     count: u32,
+    announced: u32,
     target: Target,
 }
 
@@ -166,7 +167,7 @@ impl Animation {
                 Target::Video(child, input)
             }
         };
-        Ok(Self { size, rate, count: 0, target })
+        Ok(Self { size, rate, count: 0, announced: count, target })
     }
 
     /// Adds a frame: sRGB bytes, row by row from the top.
@@ -209,8 +210,11 @@ impl Animation {
     /// The contents of the file; `None` for videos, which are in their files then.
     ///
     /// # Errors
-    /// If the frames can't be encoded, or are fewer than were announced.
+    /// If the frames can't be encoded, or are more or fewer than were announced.
     pub fn finish(self) -> Result<Option<Vec<u8>>, AnimationError> {
+        if self.count != self.announced {
+            return Err(encode(format!("there are {} instead of {}", self.count, self.announced)));
+        }
         match self.target {
             Target::Png(writer, buffer) => {
                 writer.finish().map_err(encode)?;

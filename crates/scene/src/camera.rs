@@ -1,7 +1,7 @@
 //! The camera: where the picture is taken from, and how points fall on it.
 
 use crate::Argument;
-use crate::notation::{DIRECTION, Notation, Number, POINT};
+use crate::notation::{DIRECTION, Notation, Number, POINT, are_keyframes};
 use crate::reader::Reader;
 use crate::record::record;
 use crate::schema::Definitions;
@@ -101,7 +101,7 @@ const AXES: [&str; 2] = ["vertical", "horizontal"];
 impl Notation<Projection> for FieldOfView {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Projection> {
         let (axis, angle) = match value {
-            Written::Object(_) => {
+            Written::Object(_) if !are_keyframes(value) => {
                 let (index, angle) = reader.variant(value, "an opening angle", &AXES)?;
                 (if index == 0 { FovAxis::Vertical } else { FovAxis::Horizontal }, angle)
             }

@@ -42,6 +42,11 @@ impl Names {
         &self.known
     }
 
+    /// The time, in seconds.
+    pub(crate) fn time(&self) -> f64 {
+        self.inputs.time
+    }
+
     /// Gives a name its value.
     pub(crate) fn define(&mut self, name: &str, value: f64) {
         self.known.insert(name.to_owned(), value);

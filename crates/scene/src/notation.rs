@@ -5,12 +5,19 @@
 
 mod choice;
 mod formula;
+mod keyframes;
 mod number;
 mod vector;
 
 pub(crate) use choice::{Choice, ChoiceNotation, choice, index_of};
 pub(crate) use formula::{FormulaNotation, computed};
-pub(crate) use number::{Flag, Number, count_schema, number_schema, number_schema_with, tidy, tidy_degrees, tidy_f32};
+pub(crate) use keyframes::{
+    are_keyframes, definitions as keyframes_definitions, keyed, reference as keyframes_reference,
+};
+pub(crate) use number::{
+    Flag, Number, count_schema, formula_or_number_schema, number_schema, number_schema_with, tidy, tidy_degrees,
+    tidy_f32,
+};
 pub(crate) use vector::{DIRECTION, POINT, direction_schema, named_direction, numbers_schema};
 
 use crate::reader::Reader;

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Severity;
 use crate::names::TIME;
-use crate::notation::{Maybe, Notation, Number, Words, number_schema, tidy};
+use crate::notation::{Maybe, Notation, Number, Words, are_keyframes, number_schema, tidy};
 use crate::reader::{Reader, name_span, span};
 use crate::record::{Fault, Record, RecordNotation, record};
 use crate::schema::Definitions;
@@ -49,7 +49,7 @@ struct ParameterNotation;
 impl Notation<Parameter> for ParameterNotation {
     fn read(&self, reader: &mut Reader, value: &Written<'_>) -> Option<Parameter> {
         match value {
-            Written::Object(_) => RecordNotation.read(reader, value),
+            Written::Object(_) if !are_keyframes(value) => RecordNotation.read(reader, value),
             _ => Some(Parameter { value: reader.number(value)?, ..Parameter::default() }),
         }
     }

@@ -5,7 +5,7 @@
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::files::Files;
 use crate::names::{Inputs, Names};
-use crate::notation::{Notation, computed};
+use crate::notation::{Notation, are_keyframes, computed, keyed};
 use crate::suggest::{closest, listed, quote};
 use crate::syntax::Written;
 use freikugel_field::{Field, Origin};
@@ -151,8 +151,16 @@ impl Reader {
         None
     }
 
-    /// A finite number, or a formula for one.
+    /// A finite number, or a formula or keyframes for one.
     pub(crate) fn number(&mut self, value: &Written<'_>) -> Option<f64> {
+        if are_keyframes(value) {
+            return keyed(self, value, None)?.first().copied();
+        }
+        self.plain_number(value)
+    }
+
+    /// A finite number, or a formula for one.
+    pub(crate) fn plain_number(&mut self, value: &Written<'_>) -> Option<f64> {
         let literal = match value {
             Written::NumberLit(literal) => literal,
             Written::StringLit(_) => return computed(self, value),
@@ -171,25 +179,38 @@ impl Reader {
         Some(number)
     }
 
-    /// Exactly `N` finite numbers.
-    pub(crate) fn numbers<const N: usize>(&mut self, value: &Written<'_>, names: [&str; N]) -> Option<[f64; N]> {
-        let wanted = || format!("a list of {N} numbers, [{}]", names.join(", "));
+    /// Exactly `N` finite numbers, or keyframes for them.
+    pub(crate) fn numbers<const N: usize>(
+        &mut self,
+        value: &Written<'_>,
+        names: [&'static str; N],
+    ) -> Option<[f64; N]> {
+        let numbers = if are_keyframes(value) { keyed(self, value, Some(&names)) } else { self.list(value, &names) };
+        numbers?.try_into().ok()
+    }
+
+    /// As many finite numbers as there are names for.
+    pub(crate) fn list(&mut self, value: &Written<'_>, names: &[&'static str]) -> Option<Vec<f64>> {
+        let wanted = || format!("a list of {} numbers, [{}]", names.len(), names.join(", "));
         let Written::Array(array) = value else {
             self.mistyped(value, &wanted(), None);
             return None;
         };
-        if array.elements.len() != N {
+        if array.elements.len() != names.len() {
             let message = format!("{} must be {}, but has {}", self.label(), wanted(), array.elements.len());
             self.error(span(value), message, None);
             return None;
         }
-        let mut numbers = [Some(0.0); N];
-        for ((number, element), name) in numbers.iter_mut().zip(&array.elements).zip(names) {
-            let label = format!("{name} of {}", self.label);
-            *number = self.labelled(label, |reader| reader.number(element));
-        }
-        let sound = numbers.iter().all(Option::is_some);
-        sound.then(|| numbers.map(Option::unwrap_or_default))
+        // All of them are looked at.
+        let numbers: Vec<Option<f64>> = names
+            .iter()
+            .zip(&array.elements)
+            .map(|(name, element)| {
+                let label = format!("{name} of {}", self.label);
+                self.labelled(label, |reader| reader.number(element))
+            })
+            .collect();
+        numbers.into_iter().collect()
     }
 
     /// The entries of an object by the places of their keys in `keys`; unknown and repeated ones are reported.

@@ -1,6 +1,6 @@
 //! The JSON Schema of scene files, from the same declarations that read them.
 
-use crate::notation::Notation;
+use crate::notation::{Notation, keyframes_definitions};
 use crate::record::Record;
 use crate::scene::Scene;
 use serde_json::{Map, Value as Json, json};
@@ -12,6 +12,7 @@ use serde_json::{Map, Value as Json, json};
 pub fn schema() -> Json {
     let mut definitions = Definitions::default();
     let root = definitions.record::<Scene>();
+    definitions.0.extend(keyframes_definitions());
     let mut schema = json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Freikugel scene",

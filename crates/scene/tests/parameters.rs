@@ -59,6 +59,43 @@ fn formulas_of_shapes_may_use_parameters() {
 }
 
 #[test]
+fn numbers_may_have_keyframes() {
+    let text = r#"{
+        "parameters": { "far": { "keyframes": [[0, 1], [2, 3]], "ease": "linear" } },
+        "camera": { "eye": { "keyframes": [[0, ["2 far", 0, 0]], [1, [0, 4, 0]]], "ease": "linear" } },
+        "objects": [ { "shape": { "box": { "size": { "keyframes": [[1, [1, 1, 1]], [3, [3, 2, 1]]] }, "round": 0.1 } } },
+                     { "shape": { "box": { "size": { "keyframes": [[0, 1], [1, 2]], "ease": "step" } } } } ]
+    }"#;
+    let (first, second) = (sound(at(text, &[], 0.5)), sound(at(text, &[], 2.0)));
+    assert!(at(text, &[], 0.0).uses_time);
+    assert_eq!(first.parameters[0].1.value, 1.5);
+    assert_eq!(first.camera.expect("a camera").eye.to_array(), [1.5, 2.0, 0.0]);
+    assert_eq!(first.objects[0].shape.node().numbers()[..3], [1.0, 1.0, 1.0]);
+    assert_eq!(second.objects[0].shape.node().numbers()[..3], [2.0, 1.5, 1.0]);
+    assert_eq!(second.objects[1].shape.node().numbers()[..3], [2.0, 2.0, 2.0]);
+    for (keyframes, place, message) in [
+        (r#"{ "keyframes": [[0, 1]] }"#, "[[0, 1]]", "`keyframes` of `radius` needs two entries"),
+        (r#"{ "keyframes": [[0, 1], [0, 2]] }"#, "0", "keyframe 2 of `radius` is at the time 0, which is not after 0"),
+        (r#"{ "keyframes": [[0, 1], [1]] }"#, "[1]", "keyframe 2 of `radius` must be [time, number], not a list"),
+        (r#"{ "keyframes": [[0, 1], [1, [2]]] }"#, "[2]", "keyframe 2 of `radius` must be a number, not a list"),
+        (r#"{ "keyframes": [[0, 1], [1, 2]], "ease": "soft" }"#, "\"soft\"", "`ease` can't be `soft`"),
+        (r#"{ "keyframes": [[0, 1], [1, 2]], "easy": 1 }"#, "\"easy\"", "`radius` has no key `easy`"),
+        (
+            r#"{ "frames": [[0, 1], [1, 2]] }"#,
+            r#"{ "frames": [[0, 1], [1, 2]] }"#,
+            "`radius` must be a number, not an object",
+        ),
+    ] {
+        let text = format!(r#"{{ "objects": [ {{ "shape": {{ "sphere": {{ "radius": {keyframes} }} }} }} ] }}"#);
+        let reading = read(&text);
+        let errors = errors(&reading);
+        let [only] = &errors[..] else { panic!("{text}: {errors:?}") };
+        assert!(only.message.starts_with(message), "{text}: {only:?}");
+        assert_eq!(&text[only.span.clone()], place, "{text}: {only:?}");
+    }
+}
+
+#[test]
 fn scenes_without_time_say_so() {
     assert!(!read(r#"{ "objects": [ { "shape": { "sphere": { "radius": "1 + 1" } } } ] }"#).uses_time);
     assert!(read(r#"{ "objects": [ { "shape": { "displace": { "by": "sin(x + t)", "shape": { "sphere": { "radius": 1 } } } } } ] }"#).uses_time);

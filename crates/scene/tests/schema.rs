@@ -7,7 +7,7 @@ use serde_json::{Map, Value as Json, json};
 use std::sync::LazyLock;
 
 /// Scenes that use every part of the format.
-const SCENES: [&str; 6] = [
+const SCENES: [&str; 7] = [
     r#"{ "objects": [ { "shape": { "sphere": { "radius": 1 } } } ] }"#,
     r##"{ "version": 1, "$schema": "scene.schema.json",
       "camera": { "eye": [4, -6, 3], "target": [0, 0, 1], "up": "z", "fov": 40 },
@@ -42,6 +42,10 @@ const SCENES: [&str; 6] = [
       "shapes": { "part": { "box": { "size": ["2/2", 2, "t + 1"], "round": "1 / 8" } }, "two": { "union": [ { "use": "part" } ] } },
       "objects": [ { "shape": { "twist": { "rate": "360 turns", "shape": { "use": "two" } } } } ],
       "camera": { "eye": [4, "-6 cos(t) - size", 3], "fov": "40" }, "picture": { "width": "100" } }"#,
+    r#"{ "camera": { "eye": { "keyframes": [[0, [4, -6, 3]], [2, [6, 0, "3 + 1"]], ["4", [4, -6, 3]]], "ease": "spline", "loop": true },
+                     "fov": { "keyframes": [[0, 40], [1, 30]] } },
+      "objects": [ { "shape": { "translate": { "by": [0, { "keyframes": [[0, 1], [2, 3]], "ease": "in" }, 0], "shape":
+        { "box": { "size": { "keyframes": [[0, [1, 2, 3]], [5, [3, 2, 1]]], "ease": "linear" } } } } } } ] }"#,
 ];
 
 /// The part of JSON Schema that scenes need. Anything else in a schema panics, so that nothing is passed over.
@@ -92,6 +96,10 @@ impl Validator {
             "oneOf" => alternatives().filter(|schema| self.matches(schema, value)).count() == 1,
             "not" => !self.matches(wanted, value),
             "items" => value.as_array().is_none_or(|list| list.iter().all(|entry| self.matches(wanted, entry))),
+            "prefixItems" => {
+                let Some(list) = value.as_array() else { return true };
+                alternatives().zip(list).all(|(schema, entry)| self.matches(schema, entry))
+            }
             "minItems" => value.as_array().is_none_or(|list| list.len() >= count()),
             "maxItems" => value.as_array().is_none_or(|list| list.len() <= count()),
             "minLength" => value.as_str().is_none_or(|text| text.chars().count() >= count()),
@@ -142,6 +150,9 @@ impl Validator {
                 numbers.into_iter().find(|number| self.matches(schema, number)).expect("a number in range")
             }
             "array" => {
+                if let Some(each) = schema.get("prefixItems").and_then(Json::as_array) {
+                    return each.iter().map(|schema| self.least(schema)).collect();
+                }
                 let count = schema.get("minItems").and_then(Json::as_u64).unwrap_or(1);
                 vec![self.least(&schema["items"]); count as usize].into()
             }
@@ -171,6 +182,10 @@ impl Validator {
     /// `depth`.
     fn samples(&self, schema: &Json, depth: usize) -> Vec<Json> {
         let schema = self.resolve(schema);
+        // They may stand for any number: one kind of them does for all.
+        if schema["properties"].get("keyframes").is_some() {
+            return vec![self.least(schema)];
+        }
         let is_shape = schema == &self.0["$defs"]["shape"];
         if is_shape && depth == 0 {
             return vec![self.least(schema)];

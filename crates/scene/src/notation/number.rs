@@ -1,6 +1,6 @@
 //! Numbers in a range, and truth values.
 
-use super::Notation;
+use super::{Notation, keyframes};
 use crate::reader::Reader;
 use crate::schema::Definitions;
 use crate::syntax::Written;
@@ -67,6 +67,7 @@ impl Number {
 
     fn describe(&self, kind: &str) -> Json {
         let mut schema = json!({ "type": [kind, "string"] });
+        // What formulas and keyframes come to is known when they are computed.
         let bounds = [
             ("minimum", self.least),
             ("exclusiveMinimum", self.above),
@@ -78,7 +79,7 @@ impl Number {
                 schema[key] = tidy(bound);
             }
         }
-        schema
+        json!({ "anyOf": [schema, keyframes::reference(1)] })
     }
 }
 
@@ -144,23 +145,29 @@ impl Notation<u32> for Number {
     }
 }
 
-/// The schema of a number, which a text may stand for: a formula.
-pub(crate) fn number_schema() -> Json {
+/// The schema of a number, or a formula for one.
+pub(crate) fn formula_or_number_schema() -> Json {
     json!({ "type": ["number", "string"] })
 }
 
-/// The same with more keys.
+/// The schema of a number, for which a formula or keyframes may stand.
+pub(crate) fn number_schema() -> Json {
+    number_schema_with(json!({}))
+}
+
+/// The same with more keys, which hold for numbers.
 pub(crate) fn number_schema_with(keys: Json) -> Json {
-    let mut schema = number_schema();
+    let mut schema = formula_or_number_schema();
     if let (Some(schema), Json::Object(keys)) = (schema.as_object_mut(), keys) {
         schema.extend(keys);
     }
-    schema
+    json!({ "anyOf": [schema, keyframes::reference(1)] })
 }
 
-/// The schema of a whole number in a range, which a text may stand for: a formula.
+/// The schema of a whole number in a range, for which a formula or keyframes may stand.
 pub(crate) fn count_schema(least: impl Into<Json>, most: impl Into<Json>) -> Json {
-    json!({ "type": ["integer", "string"], "minimum": least.into(), "maximum": most.into() })
+    let number = json!({ "type": ["integer", "string"], "minimum": least.into(), "maximum": most.into() });
+    json!({ "anyOf": [number, keyframes::reference(1)] })
 }
 
 /// Degrees without the noise of the conversion: nobody writes more than nine decimals of a degree.

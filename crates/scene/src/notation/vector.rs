@@ -1,7 +1,7 @@
 //! Points and directions.
 
-use super::Notation;
 use super::number::{number_schema, tidy};
+use super::{Notation, keyframes};
 use crate::reader::Reader;
 use crate::schema::Definitions;
 use crate::suggest::quote;
@@ -68,12 +68,13 @@ impl Notation<DVec3> for Vector {
     }
 }
 
-/// A list of exactly `count` numbers.
+/// A list of exactly `count` numbers, from 2 to 4, for which keyframes may stand.
 pub(crate) fn numbers_schema(count: usize) -> Json {
-    json!({ "type": "array", "items": number_schema(), "minItems": count, "maxItems": count })
+    let list = json!({ "type": "array", "items": number_schema(), "minItems": count, "maxItems": count });
+    json!({ "anyOf": [list, keyframes::reference(count)] })
 }
 
 /// A direction, by numbers or by name.
 pub(crate) fn direction_schema() -> Json {
-    json!({ "anyOf": [numbers_schema(3), { "enum": AXES.map(|(name, _)| name) }] })
+    json!({ "anyOf": [{ "enum": AXES.map(|(name, _)| name) }, numbers_schema(3)] })
 }

@@ -2,8 +2,8 @@
 
 use crate::files::{FileNotation, rows_of};
 use crate::notation::{
-    Notation, count_schema, direction_schema, index_of, named_direction, number_schema, number_schema_with,
-    numbers_schema, tidy, tidy_degrees,
+    Notation, are_keyframes, count_schema, direction_schema, index_of, keyed, keyframes_reference, named_direction,
+    number_schema, number_schema_with, numbers_schema, tidy, tidy_degrees,
 };
 use crate::ply;
 use crate::reader::{Reader, span};
@@ -37,6 +37,8 @@ impl Notation<Vec<f64>> for ParamKind {
             (Self::Direction, Written::StringLit(name)) => {
                 named_direction(reader, value, &name.value)?.to_array().to_vec()
             }
+            (Self::Size | Self::Counts(..), Written::Object(_)) if are_keyframes(value) => either(reader, value, 3)?,
+            (Self::Size2, Written::Object(_)) if are_keyframes(value) => either(reader, value, 2)?,
             (Self::Size, Written::NumberLit(_) | Written::StringLit(_)) => vec![reader.number(value)?; 3],
             (Self::Size, Written::Array(_)) | (Self::Vector | Self::Direction | Self::Lengths | Self::Factors, _) => {
                 reader.numbers(value, ["x", "y", "z"])?.to_vec()
@@ -169,16 +171,18 @@ impl Notation<Vec<f64>> for ParamKind {
             Self::Flag => json!({ "type": "boolean" }),
             Self::Vector | Self::Angles => numbers_schema(3),
             Self::Direction => direction_schema(),
-            Self::Size => json!({ "anyOf": [length(), three(length())] }),
+            Self::Size => json!({ "anyOf": [length(), three(length()), keyframes_reference(3)] }),
             Self::Counts(least, most) => {
-                json!({ "anyOf": [count_schema(least, most), three(count_schema(least, most))] })
+                json!({ "anyOf": [count_schema(least, most), three(count_schema(least, most)), keyframes_reference(3)] })
             }
             Self::Size2 => {
                 let two = json!({ "type": "array", "items": length(), "minItems": 2, "maxItems": 2 });
-                json!({ "anyOf": [length(), two] })
+                json!({ "anyOf": [length(), two, keyframes_reference(2)] })
             }
-            Self::Factors => three(factor()),
-            Self::Lengths => three(number_schema_with(json!({ "minimum": 0 }))),
+            Self::Factors => json!({ "anyOf": [three(factor()), keyframes_reference(3)] }),
+            Self::Lengths => {
+                json!({ "anyOf": [three(number_schema_with(json!({ "minimum": 0 }))), keyframes_reference(3)] })
+            }
             Self::Matrix => three(numbers_schema(3)),
             Self::Quaternion | Self::Quadruple => numbers_schema(4),
             Self::Region => {
@@ -188,7 +192,7 @@ impl Notation<Vec<f64>> for ParamKind {
                 };
                 json!({ "anyOf": [
                     one("sphere", length()),
-                    one("box", json!({ "anyOf": [length(), three(length())] })),
+                    one("box", json!({ "anyOf": [length(), three(length()), keyframes_reference(3)] })),
                 ] })
             }
             Self::HalfSpaces | Self::Balls | Self::Weighted | Self::Points3 | Self::Points2 => {
@@ -213,6 +217,16 @@ impl Notation<Vec<f64>> for ParamKind {
 
 fn list(numbers: &[f64]) -> Json {
     numbers.iter().map(|&number| tidy(number)).collect()
+}
+
+/// Keyframes of numbers that stand for all of `count` sides, or of lists of as many numbers.
+fn either(reader: &mut Reader, value: &Written<'_>, count: usize) -> Option<Vec<f64>> {
+    let frames = value.as_object().and_then(|object| object.get_array("keyframes"));
+    let first = frames.and_then(|frames| frames.elements.first()?.as_array()?.elements.get(1));
+    if let Some(Written::Array(_)) = first {
+        return keyed(reader, value, Some(&["x", "y", "z"][..count]));
+    }
+    Some(keyed(reader, value, None)?.repeat(count))
 }
 
 /// The place of a choice among its names.
