@@ -37,10 +37,17 @@ const SHEETS: [(&str, &str, &str, &[&str]); 9] = [
     ("tracers/compare-formula.png", "compare", "bench/s3-periodic.json", &["--width", "210", "--height", "140"]),
 ];
 
+/// Scenes that move: the file below `gallery/`, the scene below `scenes/`, and further arguments.
+const MOVING: [(&str, &str, &[&str]); 1] = [(
+    "animation/gears.gif",
+    "animation/gears.json",
+    &["--frames", "0..12", "--fps", "12", "--samples", "4", "--width", "240", "--height", "180"],
+)];
+
 /// The largest picture that is kept with the sources, in bytes.
 const LARGEST: u64 = 200_000;
 
-/// Renders every scene into a picture, and the contact sheets.
+/// Renders every scene into a picture, the contact sheets, and what moves.
 pub(crate) fn gallery() -> Result {
     let root = root();
     for scene in scenes(&root.join("scenes"))? {
@@ -50,6 +57,10 @@ pub(crate) fn gallery() -> Result {
     for (file, command, scene, arguments) in SHEETS {
         let scene = root.join("scenes").join(scene).display().to_string();
         make(&root, Path::new(file), &[&[command, scene.as_str()], arguments].concat())?;
+    }
+    for (file, scene, arguments) in MOVING {
+        let scene = root.join("scenes").join(scene).display().to_string();
+        make(&root, Path::new(file), &[&["render", scene.as_str()], arguments].concat())?;
     }
     thumbnails(&root)
 }

@@ -359,3 +359,12 @@ fn enclosures_are_no_wider_than_those_of_the_operands() {
         }
     }
 }
+
+#[test]
+fn pipes_belong_to_the_farther_surface_on_either_side_of_both() {
+    let Kind::Combine(table) = &shapes::PIPE.kind else { panic!("it combines") };
+    let pairs =
+        [[0.1, 0.2], [0.2, 0.1], [-0.1, 0.2], [-0.2, 0.1], [0.1, -0.2], [0.2, -0.1], [-0.1, -0.2], [-0.2, -0.1]];
+    let shares: Vec<f32> = single(table, &[0.3], &pairs).into_iter().map(|[_, share]| share).collect();
+    assert_eq!(shares, [1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0], "1 where the second is farther away");
+}

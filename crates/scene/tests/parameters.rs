@@ -101,8 +101,10 @@ fn scenes_without_time_say_so() {
     assert!(read(r#"{ "objects": [ { "shape": { "displace": { "by": "sin(x + t)", "shape": { "sphere": { "radius": 1 } } } } } ] }"#).uses_time);
 }
 
-/// The text, what is set, and the place and beginning of what is said about it.
-const MISTAKES: [(&str, &[(&str, f64)], &str, &str, &str); 16] = [
+/// The text, what is set, the place and beginning of what is said about it, and a part of the hint.
+type Mistake = (&'static str, &'static [(&'static str, f64)], &'static str, &'static str, &'static str);
+
+const MISTAKES: [Mistake; 16] = [
     (
         r#"{ "objects": [ { "shape": { "sphere": { "radius": "2 * size" } } } ] }"#,
         &[],
@@ -303,7 +305,7 @@ fn shapes_that_grow_beyond_all_bounds_are_refused() {
     );
     let reading = read(&text);
     assert!(errors(&reading)[0].message.contains("is made of more than"), "{:?}", reading.diagnostics);
-    let uses = vec![r#"{ "shape": { "use": "s19" } }"#; 9].join(", ");
+    let uses = [r#"{ "shape": { "use": "s19" } }"#; 9].join(", ");
     let text = format!(
         r#"{{ "shapes": {{ "s0": {{ "sphere": {{ "radius": 1 }} }}, {} }}, "objects": [ {uses} ] }}"#,
         doubles[..19].join(", ")

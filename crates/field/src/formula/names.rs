@@ -342,7 +342,7 @@ fn length(b: &mut Builder, args: &[Value]) -> Result<Value, String> {
 }
 
 /// The parts of two vectors that have as many.
-fn pair<'v>(args: &'v [Value]) -> Result<[&'v [TermId]; 2], String> {
+fn pair(args: &[Value]) -> Result<[&[TermId]; 2], String> {
     match args {
         [v, w] if v.parts().len() == w.parts().len() && v.as_number().is_none() => Ok([v.parts(), w.parts()]),
         [v, w] => Err(format!("takes two vectors of the same length, not {} and {}", v.kind(), w.kind())),

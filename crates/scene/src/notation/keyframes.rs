@@ -177,7 +177,7 @@ pub(crate) fn reference(count: usize) -> Json {
     json!({ "$ref": format!("#/$defs/{}", definition(count)) })
 }
 
-/// The definitions that [`reference`] names, for all counts that there are.
+/// The definitions that [`reference()`] names, for all counts that there are.
 pub(crate) fn definitions() -> impl Iterator<Item = (String, Json)> {
     (1..=MOST_NUMBERS).map(|count| {
         let number = formula_or_number_schema;

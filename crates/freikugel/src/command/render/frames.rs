@@ -3,16 +3,17 @@
 //! Every frame is written as soon as it is there, and a list beside the frames says which ones are done: when the same command
 //! runs again after an interruption, it goes on from there.
 
+use super::super::Failure;
 use super::super::frame::{Watch, cannot_render, cannot_write, open, output_path};
+use super::super::graphics::Backend;
 use super::super::input::{self, Input};
 use super::super::interrupt::Interrupt;
 use super::super::sheet::Bitmap;
-use super::super::{Failure, graphics};
 use super::{Arguments, make};
 use freikugel::animation::{Animation, AnimationError, Container, has_ffmpeg};
 use freikugel::files::Format;
 use freikugel::render::{Compression, Options, Rendered, Renderer};
-use freikugel::scene::{Files, Folder, Inputs, Picture, Scene, Severity, read_at};
+use freikugel::scene::{Files, Folder, Inputs, Picture, Severity, read_at};
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -230,25 +231,22 @@ impl<'a> Clip<'a> {
         let mut places = missing.iter().copied().enumerate().peekable();
         while let (Some((place, frame)), Some(input)) = (places.next(), next.take()) {
             let part = |place: usize| watch.for_part(parts - missing.len() as u64 + place as u64, parts);
-            let Input::Scene(scene) = &input else {
-                let (rendered, _) = make(self.arguments, backend, &input, &self.options(&input)?, &part(place))?;
-                done.write(frame, &rendered, picture(&input), interrupt)?;
-                next = places.peek().map(|&(_, frame)| self.read(frame)).transpose()?;
-                continue;
+            let scene = match &input {
+                Input::Scene(scene) if backend == Backend::Cpu => scene,
+                _ => {
+                    let (rendered, _) = make(self.arguments, backend, &input, &self.options(&input)?, &part(place))?;
+                    done.write(frame, &rendered, &picture(&input), interrupt)?;
+                    next = places.peek().map(|&(_, frame)| self.read(frame)).transpose()?;
+                    continue;
+                }
             };
-            if backend != graphics::Backend::Cpu {
-                let (rendered, _) = make(self.arguments, backend, &input, &self.options(&input)?, &part(place))?;
-                done.write(frame, &rendered, picture(&input), interrupt)?;
-                next = places.peek().map(|&(_, frame)| self.read(frame)).transpose()?;
-                continue;
-            }
             // What is compiled serves for all frames that follow until something else than the camera moves.
             let renderer = Renderer::new(scene).map_err(|error| cannot_render(error.into()))?;
             let mut options = self.options(&input)?;
             let (mut place, mut frame) = (place, frame);
             loop {
                 let rendered = renderer.render(&options, &part(place)).map_err(cannot_render)?;
-                done.write(frame, &rendered, scene.picture.clone(), interrupt)?;
+                done.write(frame, &rendered, &scene.picture, interrupt)?;
                 let Some(&(following, number)) = places.peek() else { break };
                 let input = self.read(number)?;
                 match &input {
@@ -271,7 +269,7 @@ impl<'a> Clip<'a> {
 
 fn picture(input: &Input) -> Picture {
     match input {
-        Input::Scene(scene) => Scene::clone(scene).picture,
+        Input::Scene(scene) => scene.picture.clone(),
         Input::Figures(_) | Input::Region(_) => Picture::default(),
     }
 }
@@ -327,11 +325,11 @@ impl Done {
         &mut self,
         frame: u32,
         rendered: &Rendered,
-        picture: Picture,
+        picture: &Picture,
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let path = self.path(frame);
-        let bytes = self.format.encode(rendered, &picture, Compression::Quick);
+        let bytes = self.format.encode(rendered, picture, Compression::Quick);
         let bytes = bytes.map_err(|error| Failure::Input(error.to_string()))?;
         open(&path, interrupt)?.write(&bytes).map_err(|error| cannot_write(&path, &error))?;
         let append = || writeln!(std::fs::OpenOptions::new().append(true).open(&self.list)?, "{frame}");
